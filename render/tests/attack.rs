@@ -6,7 +6,7 @@
 //! table of values.
 
 mod bridge;
-mod build;
+pub(crate) mod build;
 mod claims;
 mod defects;
 mod draft;

@@ -5,7 +5,6 @@ mod compact;
 mod known_values;
 mod lobes;
 mod properties;
-mod scene;
 mod scenes;
 mod solids;
 mod truth;

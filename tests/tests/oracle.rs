@@ -46,6 +46,19 @@ fn polygon_with_many_sides_is_a_disk() {
 }
 
 #[test]
+fn projected_disk_has_its_form_factor() {
+    for (r, h, a) in [(2.0, 0.3, 2.5), (0.5, 1.0, 0.0), (0.5, 1.0, 0.7), (1e-3, 1.0, 3.0), (30.0, 1.0, 31.0)] {
+        let of = |n: V3| curves::projected_disk([a, 0.0, h], [0.0, 0.0, -1.0], r, n) / PI;
+        let close =
+            |found: f64, truth: f64| assert!((found / truth - 1.0).abs() < 1e-7, "{r} {h} {a}: {found}, {truth}");
+        close(of([0.0, 0.0, 1.0]), facing_disk(r, h, a));
+        if r <= a {
+            close(of([1.0, 0.0, 0.0]), perpendicular_disk(r, h, a));
+        }
+    }
+}
+
+#[test]
 fn clipped_polygon_is_its_integral() {
     let mut random = Random::new(5);
     for _ in 0..20 {

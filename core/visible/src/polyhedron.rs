@@ -31,7 +31,7 @@ pub struct Polyhedron {
     pub(crate) planes: Vec<(V64, f64)>,
     /// Greatest distance of a corner from the center.
     pub(crate) extent: f64,
-    /// How far the triangles are from those of a convex polyhedron, in scene units: its outline is displaced by no more.
+    /// See [`Self::deviation`].
     pub(crate) deviation: f64,
 }
 
@@ -143,7 +143,10 @@ impl Polyhedron {
     pub fn edges(&self) -> &[Edge] {
         &self.edges
     }
-    /// How far the triangles are from those of a convex polyhedron, in scene units: its outline is displaced by no more.
+    /// How far the triangles are from those of a convex polyhedron, in scene units. Its outline is displaced by no more than √2 times this over
+    /// the sine of the angle between an edge of the outline and the direction from the point to the farther end of that edge: near the line
+    /// of a short edge, the plane of a face that does not quite contain the edge is farther from it than the corners are. Measured by
+    /// `cargo test -p etendue-render-tests outlines_of_polyhedra -- --nocapture`: 0.85 times this over the sine.
     #[must_use]
     pub const fn deviation(&self) -> f64 {
         self.deviation
@@ -158,11 +161,12 @@ impl Polyhedron {
     }
 }
 
-/// How far the outline of a polyhedron may be displaced.
+/// How far the outline of a polyhedron may be displaced, unless an edge of it is seen at a small angle.
 ///
 /// The plane through a point and an edge of the outline has all corners on one side if the planes of the two faces there have, and if they
-/// contain the edge. A corner may be beyond them by rounding, and a plane that does not contain the edge is off by the distance of the
-/// corners from the edge, times the sine of the angle between edge and plane.
+/// contain the edge. A corner may be beyond them by rounding. With the angle α between the plane of a face and the edge, a point between
+/// the plane and the edge, s along the edge and w from its line, turns the plane through point and edge by s sin α / w: corners are beyond
+/// it by their distance from the edge times that. What is returned is for s = w.
 fn deviation(corners: &[V64], planes: &[(V64, f64)], edges: &[Edge]) -> f64 {
     let beyond = |&(normal, offset): &(V64, f64)| corners.iter().map(|&p| normal.dot(p) - offset).fold(0.0, f64::max);
     let faces = planes.iter().map(beyond).fold(0.0, f64::max);

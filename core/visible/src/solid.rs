@@ -134,7 +134,8 @@ impl Solid {
         let convex = turns.iter().all(|&x| x > 0.0) || turns.iter().all(|&x| x < 0.0);
         (flat && convex).then_some(Self::Polygon { corners, count: 4, deviation })
     }
-    /// The angle in radians by which its outline may be displaced as seen from a patch: next to it, from most of the patch.
+    /// The angle in radians by which its outline may be displaced as seen from a patch: next to it, or to the line of an edge, from most of
+    /// the patch.
     pub(crate) fn displacement(&self, patch: &Hull) -> f64 {
         let (center, extent, deviation) = match self {
             Self::Polygon { corners, count, deviation } if *deviation > 0.0 => {

@@ -1,8 +1,9 @@
 //! What convex occluders leave of a light.
 
 use etendue::reflection::Reflection;
-use etendue::{Real, Vec3, f32x8};
+use etendue::{Vec3, f32x8};
 use etendue_judge::fuzz_bodies::{Input, scalable};
+use etendue_judge::occlusion::Scene;
 use etendue_judge::packets::vectors_of;
 use etendue_visible::{Occlusion, Solid, V64};
 use std::f32::consts::PI;
@@ -35,49 +36,6 @@ fn finite(v: Vec3<f32>) -> Vec3<f32> {
     if v.max_abs() <= f32::MAX { v } else { Vec3::default() }
 }
 
-/// A light, occluders, and eight points with the normals of their surfaces.
-#[derive(Clone, Debug)]
-struct Scene {
-    light: Solid,
-    occluders: Vec<Solid>,
-    points: [[f32; 3]; 8],
-    normals: [[f32; 3]; 8],
-}
-
-impl Scene {
-    /// What is visible, and what is there without occluders. The lane `i` has the point `i + first`.
-    fn found<R: Real<Scalar = f32>>(&self, first: usize) -> [Option<R>; 2] {
-        let p = vectors_of::<R>(|i| self.points[(first + i) % 8]);
-        let n = vectors_of::<R>(|i| self.normals[(first + i) % 8]);
-        [&self.occluders[..], &[]].map(|occluders| Occlusion::new().visible(p, n, &self.light, occluders))
-    }
-    /// Results are between 0 and what there is without occluders, and the bits of a packet are those of its lanes alone.
-    fn check(&self) {
-        let [left, all] = self.found::<f32x8>(0);
-        let all = all.expect("there are no occluders").to_array();
-        assert!(all.iter().all(|all| all.is_finite() && (0.0..=PI).contains(all)), "{all:?}: {self:?}");
-        let Some(left) = left.map(f32x8::to_array) else { return };
-        for (lane, all) in all.into_iter().enumerate() {
-            assert!((0.0..=all).contains(&left[lane]), "{left:?} of {all}: {self:?}");
-            let alone = self.found::<f32>(lane)[0].map(f32::to_bits);
-            assert_eq!(alone, Some(left[lane].to_bits()), "lane {lane}: {self:?}");
-        }
-    }
-    /// Multiplying all lengths by a power of two changes no bit.
-    fn scale(&self, exponent: i32) {
-        let factor = 2.0_f32.powi(exponent);
-        let times = |shape: &Solid| shape.scaled(factor.into());
-        let scaled = Self {
-            light: times(&self.light),
-            occluders: self.occluders.iter().map(times).collect(),
-            points: self.points.map(|p| p.map(|x| x * factor)),
-            normals: self.normals,
-        };
-        let bits = |scene: &Self| scene.found::<f32x8>(0)[0].map(|x| x.to_array().map(f32::to_bits));
-        assert_eq!(bits(self), bits(&scaled), "times 2^{exponent}: {self:?}");
-    }
-}
-
 /// Lights behind occluders, also as a rough surface reflects them.
 pub fn occlusion(bytes: &[u8]) {
     let input = &mut Input::new(bytes);
@@ -93,7 +51,8 @@ pub fn occlusion(bytes: &[u8]) {
     let count = input.below(18) % (1 + input.below(17));
     let occluders = (0..count).map(|_| shape(input, &mut before)).collect();
     let scene = Scene { light, occluders, points, normals };
-    scene.check();
+    scene.total();
+    scene.lanes();
     let mut lengths: Vec<f32> = points.iter().flatten().copied().collect();
     let mut all: Vec<V64> = Vec::new();
     for shape in scene.occluders.iter().chain([&scene.light]) {

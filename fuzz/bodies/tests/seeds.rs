@@ -76,7 +76,7 @@ fn emitters() {
 }
 #[test]
 fn occlusion() {
-    damaged_and_random("occlusion", files::occlusion, cases(1000, 10_000));
+    damaged_and_random("occlusion", files::occlusion, cases(4000, 20_000));
 }
 #[test]
 fn c_interface() {

@@ -1,7 +1,7 @@
 //! How much of a light reaches a point, in double precision: every primitive is subtracted, and no certificate is asked.
 
 use super::views::World;
-use etendue_oracle::visible::{Shape as Form, visible};
+use etendue_oracle::visible::{Shape as Form, spared, visible};
 use etendue_oracle::{V3, along, cross, dot, sub, unit, wide};
 use etendue_render::bvh::PrimitiveId;
 use etendue_render::scene::{Geometry, Parallelogram, Shape, Sphere};
@@ -84,15 +84,6 @@ fn emits(light: &Shape, form: &Form) -> bool {
     }
 }
 
-/// What part of the way to the plane of a light is level with its end: 8 roundings of the greatest coordinate of both ends.
-fn ends(form: &Form, p: V3) -> f64 {
-    let Form::Polygon(corners) = form else { return 0.0 };
-    let normal = unit(cross(sub(corners[1], corners[0]), sub(corners[2], corners[0])));
-    let absolute = corners.iter().map(|&corner| along(corner, p, 1.0)).chain([p]);
-    let greatest = absolute.flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
-    (ENDS * greatest / dot(normal, corners[0]).abs()).min(1.0)
-}
-
 /// Is the origin on a triangle, up to the rounding of points?
 fn touches(corners: &[V3], rounding: f64) -> bool {
     let normal = unit(cross(sub(corners[1], corners[0]), sub(corners[2], corners[0])));
@@ -122,7 +113,7 @@ impl World {
         if !emits(shape, &form) {
             return Truth { all: 0.0, left: Some(0.0) };
         }
-        let ends = ends(&form, p);
+        let ends = spared(&form, p, ENDS);
         let Some(lit) = visible(&form, &[], normal, ends) else { return Truth::default() };
         // below the horizon, rounding is left
         if lit.all <= 1e-14 * lit.around {

@@ -1,9 +1,9 @@
 //! Flat lights that are compact as [`COMPACT`] says, whole and behind a triangle: errors relative to the square of their size.
 
-use super::scene::{Scene, exact};
-use super::truth::Truth;
+use super::truth::{Truth, exact};
 use etendue::{Vec3, f32x8};
 use etendue_judge::generators::Random;
+use etendue_judge::occlusion::Scene;
 use etendue_oracle::{Greatest, V3, along, dot, length, narrow, sub, unit, wide};
 use etendue_visible::Solid;
 use etendue_visible::measure::COMPACT;
@@ -27,7 +27,6 @@ fn scene(random: &mut Random, [long, short]: [f64; 2], hidden: bool) -> Scene {
     Scene {
         light,
         occluders: if hidden { vec![occluder] } else { Vec::new() },
-        solids: Vec::new(),
         points,
         normals: [narrow(unit(above)); 8],
     }

@@ -1,62 +1,30 @@
 //! Scenes of polygons and spheres, by regimes.
 
-use super::scene::Scene;
 use super::truth::{polygon, sphere};
 use etendue_judge::generators::Random;
+use etendue_judge::occlusion::Scene;
 use etendue_oracle::{V3, along, basis, cross, dot, narrow, sub, unit, wide};
 use etendue_visible::{Solid, V64};
 
-/// How shapes are placed.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) enum Difficulty {
-    Any,
-    Tiny,
-    Small,
-    Huge,
-    Far,
-    Near,
-    EdgeOn,
-    Horizon,
-    SliverLight,
-    SliverBlockers,
-    TouchLight,
-    TouchSurface,
-    Quads,
-    Fan,
-    Box,
-    Twice,
-    LightPlane,
-    CrossHorizon,
-    Axis,
-    Exact,
-    InPlane,
-    Sixteen,
+/// An enumeration, and a list of all of its values.
+macro_rules! kinds {
+    ($(#[$doc:meta])* $name:ident, $all:ident: $($kind:ident)+) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, PartialEq, Debug)]
+        pub(crate) enum $name {
+            $($kind),+
+        }
+        pub(crate) const $all: &[$name] = &[$($name::$kind),+];
+    };
 }
+pub(super) use kinds;
 
-pub(crate) const KINDS: [Difficulty; 22] = [
-    Difficulty::Any,
-    Difficulty::Tiny,
-    Difficulty::Small,
-    Difficulty::Huge,
-    Difficulty::Far,
-    Difficulty::Near,
-    Difficulty::EdgeOn,
-    Difficulty::Horizon,
-    Difficulty::SliverLight,
-    Difficulty::SliverBlockers,
-    Difficulty::TouchLight,
-    Difficulty::TouchSurface,
-    Difficulty::Quads,
-    Difficulty::Fan,
-    Difficulty::Box,
-    Difficulty::Twice,
-    Difficulty::LightPlane,
-    Difficulty::CrossHorizon,
-    Difficulty::Axis,
-    Difficulty::Exact,
-    Difficulty::InPlane,
-    Difficulty::Sixteen,
-];
+kinds! {
+    /// How shapes are placed.
+    Difficulty, KINDS:
+    Any Tiny Small Huge Far Near EdgeOn Horizon SliverLight SliverBlockers TouchLight TouchSurface Quads Fan Box Twice LightPlane CrossHorizon
+    Axis Exact InPlane Sixteen
+}
 
 /// Which shapes are spheres.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -347,5 +315,5 @@ fn unplaced(random: &mut Random, kind: Difficulty, round: Round) -> Scene {
         let off = if kind == Difficulty::TouchSurface || i < 2 { 0.0 } else { 0.1 };
         narrow(unit(along(normal, random.direction(), off)))
     });
-    Scene { light, occluders, solids: Vec::new(), points, normals }
+    Scene { light, occluders, points, normals }
 }

@@ -1,81 +1,39 @@
 //! Scenes with convex polyhedra, by regimes.
 
-use super::scene::{Faceted, Scene};
-use super::scenes::{Placement, corners};
+use super::scenes::{Placement, corners, kinds};
 use super::truth::{polygon, sphere};
+use crate::attack::build::{Solid as Faces, cube, placed, prism, tetrahedron, triangles};
 use etendue_judge::generators::Random;
-use etendue_oracle::{V3, along, basis, cross, dot, narrow, sub, unit};
+use etendue_judge::occlusion::Scene;
+use etendue_oracle::{V3, along, basis, cross, dot, narrow, sub, unit, wide};
+use etendue_visible::Solid;
 
 /// The least gap between a polyhedron and the light, relative to the way to the light.
 const TOUCHES: f64 = 1.0 / 131_072.0;
 
-/// How polyhedra are placed.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) enum SolidKind {
-    Any,
-    Tiny,
-    Huge,
-    Near,
-    Plate,
-    Needle,
-    TouchLight,
-    CrossHorizon,
-    Standing,
-    GrazingFace,
-    Inside,
-    Several,
-    AmongPolygons,
-}
-pub(crate) const SOLID_KINDS: [SolidKind; 13] = [
-    SolidKind::Any,
-    SolidKind::Tiny,
-    SolidKind::Huge,
-    SolidKind::Near,
-    SolidKind::Plate,
-    SolidKind::Needle,
-    SolidKind::TouchLight,
-    SolidKind::CrossHorizon,
-    SolidKind::Standing,
-    SolidKind::GrazingFace,
-    SolidKind::Inside,
-    SolidKind::Several,
-    SolidKind::AmongPolygons,
-];
-
-/// Corners, and the corners of each face in order around.
-type Form = (Vec<V3>, Vec<Vec<usize>>);
-
-/// A prism over a regular polygon with n corners, or its frustum, within [−1, 1]³.
-fn prism(n: usize, top: f64) -> Form {
-    let corner = |k: usize| {
-        let (sin, cos) = ((k % n) as f64 / n as f64 * core::f64::consts::TAU).sin_cos();
-        if k < n { [cos, sin, -1.0] } else { [top * cos, top * sin, 1.0] }
-    };
-    let mut faces: Vec<Vec<usize>> = (0..n).map(|k| vec![k, (k + 1) % n, n + (k + 1) % n, n + k]).collect();
-    faces.push((0..n).collect());
-    faces.push((n..2 * n).collect());
-    ((0..2 * n).map(corner).collect(), faces)
+kinds! {
+    /// How polyhedra are placed.
+    SolidKind, SOLID_KINDS:
+    Any Tiny Huge Near Plate Needle TouchLight CrossHorizon Standing GrazingFace Inside Several AmongPolygons
 }
 
-/// The box [−1, 1]³.
-fn block() -> Form {
-    let corners = (0..8).map(|k| [0, 1, 2].map(|axis| f64::from(k >> axis & 1) * 2.0 - 1.0)).collect();
-    let faces = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
-    (corners, faces.map(Vec::from).into())
-}
-
-fn form(random: &mut Random) -> Form {
+/// A solid within [−1, 1]³.
+fn form(random: &mut Random) -> Faces {
     match random.word() % 7 {
-        0 => {
-            let corners = vec![[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
-            (corners, vec![vec![0, 1, 2], vec![0, 1, 3], vec![0, 2, 3], vec![1, 2, 3]])
+        0 => tetrahedron(),
+        1 => prism(3),
+        2 => prism(5),
+        3 => prism(6),
+        4 => {
+            let top = random.range(0.3, 0.9);
+            moved(&prism(4), |[x, y, z]| if y < 0.0 { [x, y, z] } else { [top * x, y, top * z] })
         }
-        1 => prism(3, 1.0),
-        2 => prism(5, 1.0),
-        3 => prism(6, 1.0),
-        4 => prism(4, random.range(0.3, 0.9)),
-        _ => block(),
+        _ => cube(),
     }
+}
+
+fn moved(solid: &Faces, to: impl Fn(V3) -> V3) -> Faces {
+    solid.iter().map(|face| face.iter().map(|&v| to(v)).collect()).collect()
 }
 
 /// A scene with polyhedra before a light, which is a sphere if `round`.
@@ -94,7 +52,7 @@ pub(crate) fn scene_with_solids(random: &mut Random, kind: SolidKind, round: boo
     let (across, limit) = if limit < 0.0 { (across.map(|x| -x), -limit) } else { (across, limit) };
     let mut normal = unit(along(toward, random.direction(), random.range(0.0, 1.5)));
     let count = if kind == SolidKind::Several { 2 + random.word() % 2 } else { 1 };
-    let mut solids: Vec<Form> = Vec::new();
+    let mut solids: Vec<Faces> = Vec::new();
     for _ in 0..count {
         let f = match kind {
             SolidKind::Near => random.magnitude(1e-2, 0.2),
@@ -112,7 +70,7 @@ pub(crate) fn scene_with_solids(random: &mut Random, kind: SolidKind, round: boo
         let z = random.direction();
         let (x, y) = basis(z);
         let mut axes = [x, y, z];
-        let (mut corners, faces) = form(random);
+        let mut solid = form(random);
         match kind {
             SolidKind::Huge => {
                 let side = random.magnitude(1.0, 30.0);
@@ -133,7 +91,7 @@ pub(crate) fn scene_with_solids(random: &mut Random, kind: SolidKind, round: boo
                 let turn = random.direction();
                 let a = unit(along(along(a, b, turn[0]), b, turn[1]));
                 axes = [a, cross(normal, a), normal];
-                (corners, _) = block();
+                solid = cube();
                 middle = along(middle, normal, half[2] - dot(middle, normal));
                 if random.unit() < 0.3 {
                     middle = along(middle, normal, -half[2] * random.magnitude(1e-6, 0.5));
@@ -152,26 +110,26 @@ pub(crate) fn scene_with_solids(random: &mut Random, kind: SolidKind, round: boo
             }
             _ => {}
         }
-        let faces = if kind == SolidKind::Standing { block().1 } else { faces };
-        if kind == SolidKind::GrazingFace && corners.len() != 8 {
+        if kind == SolidKind::GrazingFace && solid.len() != 6 {
             continue;
         }
-        let at = |v: &V3| (0..3).fold(middle, |sum, k| along(sum, axes[k], v[k] * half[k]));
-        let mut corners: Vec<V3> = corners.iter().map(at).collect();
-        let reach = |corners: &[V3]| corners.iter().map(|&v| dot(across, v) / limit).fold(0.0, f64::max);
+        solid = placed(&solid, half, &axes, middle);
+        let reach = |solid: &Faces| solid.iter().flatten().map(|&v| dot(across, v) / limit).fold(0.0, f64::max);
         if kind == SolidKind::TouchLight {
             // the gap is a little more than the rounding of ends
-            let scale = (1.0 - TOUCHES * random.magnitude(1.5, 1e3)) / reach(&corners);
-            corners.iter_mut().for_each(|v| *v = v.map(|x| x * scale));
+            let scale = (1.0 - TOUCHES * random.magnitude(1.5, 1e3)) / reach(&solid);
+            solid = moved(&solid, |v| v.map(|x| x * scale));
         }
         for _ in 0..30 {
-            if reach(&corners) < 1.0 - 1.3 * TOUCHES {
+            if reach(&solid) < 1.0 - 1.3 * TOUCHES {
                 break;
             }
-            let middle = corners.iter().fold([0.0; 3], |sum, &v| along(sum, v, 1.0 / corners.len() as f64));
-            corners.iter_mut().for_each(|v| *v = along(middle, sub(*v, middle), 0.8));
+            let corners = solid.iter().flatten();
+            let count = corners.clone().count() as f64;
+            let middle = corners.fold([0.0; 3], |sum, &v| along(sum, v, 1.0 / count));
+            solid = moved(&solid, |v| along(middle, sub(v, middle), 0.8));
         }
-        solids.push((corners, faces));
+        solids.push(solid);
     }
     let mut occluders = Vec::new();
     if kind == SolidKind::AmongPolygons {
@@ -200,10 +158,11 @@ pub(crate) fn scene_with_solids(random: &mut Random, kind: SolidKind, round: boo
         narrow(unit(along(normal, random.direction(), off)))
     });
     let placement = Placement::new(random);
-    let scene = placement.scene(Scene { light, occluders, solids: Vec::new(), points, normals });
-    let solid = |(corners, faces): &Form| {
-        let corners: Vec<_> = corners.iter().map(|&v| placement.point(v)).collect();
-        Faceted::new(&corners, faces)
+    let scene = placement.scene(Scene { light, occluders, points, normals });
+    let solid = |solid: &Faces| {
+        let solid = moved(solid, |v| wide(placement.point(v)));
+        let triangles = triangles(&solid).into_iter().map(|t| t.map(Into::into));
+        Solid::polyhedron(&triangles.collect::<Vec<_>>())
     };
-    Scene { solids: solids.iter().map(solid).collect(), ..scene }
+    Scene { occluders: solids.iter().filter_map(solid).chain(scene.occluders).collect(), ..scene }
 }

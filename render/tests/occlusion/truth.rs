@@ -1,22 +1,18 @@
 //! The truth about scenes.
 
-use super::scene::{Faceted, Scene, exact};
 use etendue::Vec3;
-use etendue_oracle::visible::{Shape, Visible, visible};
-use etendue_oracle::{V3, along, cross, dot, length, narrow, sub, unit, wide};
-use etendue_visible::Solid;
+use etendue_judge::occlusion::Scene;
+use etendue_oracle::visible::{Shape, Visible, spared, visible};
+use etendue_oracle::{V3, along, basis, cross, dot, length, narrow, sub, unit, wide};
+use etendue_visible::{Polyhedron, Solid, V64};
 
 /// What is so near to the plane of a flat light does not occlude it, relative to the greatest coordinate of the point and the light, as
 /// documented.
-pub(crate) const ENDS: f64 = 1.0 / 2_097_152.0;
+const ENDS: f64 = 1.0 / 2_097_152.0;
 
-/// The same as a fraction of the way from a point to the plane of a light that is given relative to the point; 0 for a sphere.
-pub(crate) fn spared(light: &Shape, point: V3) -> f64 {
-    let Shape::Polygon(corners) = light else { return 0.0 };
-    let normal = unit(cross(sub(corners[1], corners[0]), sub(corners[2], corners[0])));
-    let absolute = corners.iter().map(|&corner| along(corner, point, 1.0)).chain([point]);
-    let greatest = absolute.flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
-    (ENDS * greatest / dot(normal, corners[0]).abs()).min(1.0)
+/// The exact value of a point.
+pub(crate) fn exact(v: Vec3<f32>) -> V64 {
+    v.map(f64::from)
 }
 
 /// A polygon whose corners are rounded to single precision.
@@ -30,25 +26,42 @@ pub(crate) fn sphere(center: V3, radius: f64) -> Solid {
     Solid::Sphere { center: exact(narrow(center).into()), radius: f64::from(radius as f32) }
 }
 
-/// The shape relative to a point.
-pub(crate) fn from_point(shape: &Solid, point: [f32; 3]) -> Shape {
-    match *shape {
-        Solid::Polygon { corners, count, .. } => {
-            Shape::Polygon(corners[..count].iter().map(|&c| sub(c.into(), wide(point))).collect())
-        }
+/// The corners of each face of a polyhedron, in order around.
+fn outlines(body: &Polyhedron) -> impl Iterator<Item = Vec<V3>> {
+    body.faces().iter().enumerate().map(|(face, [normal, _])| {
+        let (s, t) = basis(unit((*normal).into()));
+        let edges = body.edges().iter().filter(|edge| edge.faces.contains(&face));
+        let mut corners: Vec<V3> = edges.flat_map(|edge| edge.ends).map(V3::from).collect();
+        let middle = corners.iter().fold([0.0; 3], |sum, v| along(sum, *v, 1.0 / corners.len() as f64));
+        let angle = |v: &V3| dot(sub(*v, middle), t).atan2(dot(sub(*v, middle), s));
+        corners.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
+        corners.dedup();
+        corners
+    })
+}
+
+/// The surface of a shape relative to a point: a shape, or the faces of a polyhedron.
+fn from_point(shape: &Solid, point: [f32; 3]) -> Vec<Shape> {
+    let relative = |v: V3| sub(v, wide(point));
+    let flat = |corners: &[V3]| Shape::Polygon(corners.iter().map(|&v| relative(v)).collect());
+    match shape {
+        Solid::Polygon { corners, count, .. } => vec![flat(&corners.map(V3::from)[..*count])],
         Solid::Parallelogram { corner, edges: [u, v] } => {
-            let (a, u, v): (V3, V3, V3) = (sub(corner.into(), wide(point)), u.into(), v.into());
-            Shape::Polygon(vec![a, along(a, u, 1.0), along(along(a, u, 1.0), v, 1.0), along(a, v, 1.0)])
+            vec![flat(&[*corner, *corner + *u, *corner + *u + *v, *corner + *v].map(V3::from))]
         }
-        Solid::Sphere { center, radius } => Shape::Sphere(sub(center.into(), wide(point)), radius),
-        Solid::Polyhedron(_) => unreachable!("scenes have polyhedra apart"),
+        Solid::Sphere { center, radius } => vec![Shape::Sphere(relative((*center).into()), *radius)],
+        Solid::Polyhedron(body) => outlines(body).map(|face| flat(&face)).collect(),
     }
 }
 
-/// The faces of a polyhedron relative to a point.
-fn faces_from_point(solid: &Faceted, point: [f32; 3]) -> Vec<Shape> {
-    let corner = |v: &Vec3<f32>| sub(wide((*v).into()), wide(point));
-    solid.outlines.iter().map(|outline| Shape::Polygon(outline.iter().map(corner).collect())).collect()
+/// The least and the greatest distance of the edges of a polyhedron from a point.
+fn distances(body: &Polyhedron, point: V3) -> [f64; 2] {
+    body.edges().iter().fold([f64::INFINITY, 0.0], |[least, most], edge| {
+        let [a, b] = edge.ends.map(|end| sub(end.into(), point));
+        let d = sub(b, a);
+        let nearest = along(a, d, (-dot(a, d) / dot(d, d)).clamp(0.0, 1.0));
+        [least.min(length(nearest)), most.max(length(a)).max(length(b))]
+    })
 }
 
 /// The truth about a scene.
@@ -58,8 +71,7 @@ pub(crate) trait Truth {
     /// Whether the point lies within a flat occluder, nearer to its plane than single precision tells, which then hides one half of the
     /// directions or the other. The same holds for points on the surface of a polyhedron.
     fn surrounded(&self, lane: usize) -> bool;
-    /// The greatest distance of a corner of a polyhedron from the plane of its face, or beyond that of another, which is rounding, over
-    /// the least distance of an edge.
+    /// The deviation that a polyhedron states, which is rounding of its corners, over the least distance of an edge.
     fn unevenness(&self, lane: usize) -> f64;
     /// The truth for a lane, with a limit in front of the light that is a fifth nearer and farther.
     fn truth(&self, lane: usize) -> Option<[Visible; 2]>;
@@ -67,7 +79,7 @@ pub(crate) trait Truth {
 
 impl Truth for Scene {
     fn condition(&self, lane: usize) -> f64 {
-        let sine = |shape: &Solid| match from_point(shape, self.points[lane]) {
+        let sine = |shape: Shape| match shape {
             Shape::Polygon(corners) => (0..corners.len())
                 .map(|i| (corners[i], corners[(i + 1) % corners.len()]))
                 .filter(|(a, b)| dot(*a, *b) < 0.0)
@@ -75,65 +87,44 @@ impl Truth for Scene {
                 .fold(1.0, f64::min),
             Shape::Sphere(center, radius) => (1.0 - (radius / length(center)).powi(2)).max(0.0).sqrt(),
         };
-        let solids = self.solids.iter().flat_map(|solid| &solid.edges).map(|edge| {
-            let [a, b] = edge.0.map(|end| sub(wide(end.into()), wide(self.points[lane])));
-            if dot(a, b) < 0.0 { length(cross(unit(a), unit(b))) } else { 1.0 }
-        });
-        self.occluders.iter().map(sine).chain(solids).fold(sine(&self.light), f64::min)
+        let shapes = self.occluders.iter().chain([&self.light]);
+        shapes.flat_map(|shape| from_point(shape, self.points[lane])).map(sine).fold(1.0, f64::min)
     }
     fn surrounded(&self, lane: usize) -> bool {
-        let on_solid = self.solids.iter().any(|solid| {
-            let from_point = |v: Vec3<f32>| sub(wide(v.into()), wide(self.points[lane]));
-            let corners = solid.edges.iter().flat_map(|edge| edge.0).map(from_point);
-            let size = corners.map(length).fold(0.0, f64::max);
-            let depths = solid.faces.iter().map(|&[normal, on]| dot(wide(normal.into()), from_point(on)));
-            depths.fold(f64::INFINITY, f64::min).abs() < 1e-6 * size
-        });
-        on_solid
-            || self.occluders.iter().any(|occluder| {
-                let Shape::Polygon(c) = from_point(occluder, self.points[lane]) else { return false };
-                let last = c[c.len() - 1];
-                let across = unit(cross(sub(c[1], c[0]), sub(last, c[0])));
-                let size = c.iter().map(|c| length(*c)).fold(0.0, f64::max);
-                let angle = |i: usize| dot(unit(c[i]), unit(c[(i + 1) % c.len()])).clamp(-1.0, 1.0).acos();
-                dot(across, c[0]).abs() < 1e-6 * size && (0..c.len()).map(angle).sum::<f64>() > 5.0
-            })
+        self.occluders.iter().any(|occluder| {
+            if let Solid::Polyhedron(body) = occluder {
+                let point = wide(self.points[lane]);
+                let depth = |&[normal, on]: &[V64; 2]| dot(unit(normal.into()), sub(on.into(), point));
+                let least = body.faces().iter().map(depth).fold(f64::INFINITY, f64::min);
+                return least.abs() < 1e-6 * distances(body, point)[1];
+            }
+            let [Shape::Polygon(c)] = &from_point(occluder, self.points[lane])[..] else { return false };
+            let last = c[c.len() - 1];
+            let across = unit(cross(sub(c[1], c[0]), sub(last, c[0])));
+            let size = c.iter().map(|c| length(*c)).fold(0.0, f64::max);
+            let angle = |i: usize| dot(unit(c[i]), unit(c[(i + 1) % c.len()])).clamp(-1.0, 1.0).acos();
+            dot(across, c[0]).abs() < 1e-6 * size && (0..c.len()).map(angle).sum::<f64>() > 5.0
+        })
     }
     fn unevenness(&self, lane: usize) -> f64 {
-        let from_point = |v: Vec3<f32>| sub(wide(v.into()), wide(self.points[lane]));
-        let of = |solid: &Faceted| {
-            let mut most = 0.0_f64;
-            for (i, &[normal, on]) in solid.faces.iter().enumerate() {
-                for (j, outline) in solid.outlines.iter().enumerate() {
-                    for &v in outline {
-                        let height = dot(wide(normal.into()), sub(from_point(v), from_point(on)));
-                        most = most.max(if i == j { height.abs() } else { height });
-                    }
-                }
-            }
-            let distance = |ends: [Vec3<f32>; 2]| {
-                let [a, b] = ends.map(from_point);
-                let d = sub(b, a);
-                length(along(a, d, (-dot(a, d) / dot(d, d)).clamp(0.0, 1.0)))
-            };
-            most / solid.edges.iter().map(|edge| distance(edge.0)).fold(f64::INFINITY, f64::min)
+        let of = |solid: &Solid| match solid {
+            Solid::Polyhedron(body) => body.deviation() / distances(body, wide(self.points[lane]))[0],
+            _ => 0.0,
         };
-        self.solids.iter().map(of).fold(0.0, f64::max)
+        self.occluders.iter().map(of).fold(0.0, f64::max)
     }
     fn truth(&self, lane: usize) -> Option<[Visible; 2]> {
         let point = self.points[lane];
-        let light = from_point(&self.light, point);
-        let occluders: Vec<_> = self.occluders.iter().map(|b| from_point(b, point)).collect();
-        let solids: Vec<_> = self.solids.iter().map(|solid| faces_from_point(solid, point)).collect();
-        let all = [&occluders[..], &solids.concat()].concat();
+        let light = from_point(&self.light, point).swap_remove(0);
+        let each: Vec<Vec<Shape>> = self.occluders.iter().map(|occluder| from_point(occluder, point)).collect();
         let at = |share: f64| {
-            let spared = share * spared(&light, wide(point));
+            let spared = share * spared(&light, wide(point), ENDS);
             let seen = |occluders: &[Shape]| visible(&light, occluders, wide(self.normals[lane]), spared);
-            let mut found = seen(&all)?;
+            let mut found = seen(&each.concat())?;
             // a polyhedron is one occluder
-            if !solids.is_empty() {
-                let whole = |solid: &Vec<Shape>| seen(solid).map_or(0, |alone| alone.occluders.min(1));
-                found.occluders = seen(&occluders)?.occluders + solids.iter().map(whole).sum::<usize>();
+            for faces in each.iter().filter(|faces| faces.len() > 1) {
+                let hiding = faces.iter().filter_map(|face| seen(std::slice::from_ref(face))).map(|one| one.occluders);
+                found.occluders = 1 + found.occluders - hiding.sum::<usize>().max(1);
             }
             Some(found)
         };

@@ -10,7 +10,7 @@
 //! - [`tolerances`]: the one table of tolerances, each with its reason.
 //! - [`suite`]: all properties over all regimes.
 //! - [`fuzz_bodies`]: the bodies of the fuzz targets.
-//! - [`checks`]: properties of functions that are not samplers; [`light_tree`]: of trees of lights.
+//! - [`checks`]: properties of functions that are not samplers; [`light_tree`]: of trees of lights; [`occlusion`]: of lights behind occluders.
 //! - [`mutants`]: well-known defects of renderers, which the properties must detect.
 //! - [`stats`] has p-values.
 
@@ -37,6 +37,8 @@ pub mod lights;
 pub mod mutants;
 #[cfg(feature = "checks")]
 pub mod numbers;
+#[cfg(feature = "occlusion")]
+pub mod occlusion;
 pub mod packets;
 #[cfg(feature = "checks")]
 pub mod page;

@@ -6,8 +6,8 @@ use crate::lights::scene::Axis;
 use crate::lights::verdict::{Case, Finding, Judgement};
 use crate::random::Random;
 use etendue::Vec3;
-use etendue_oracle::visible::{Shape, visible};
-use etendue_oracle::{V3, along, cross, dot, sub, unit};
+use etendue_oracle::visible::{Shape, spared, visible};
+use etendue_oracle::{V3, along, sub};
 use etendue_visible::{ENDS, Light, Occluder, Patch, Proof, Solid};
 use std::time::Instant;
 
@@ -127,15 +127,6 @@ impl Body {
     }
 }
 
-/// What part of the way from a point to the plane of a light, relative to it, is level with its end, as `etendue_visible` documents it.
-fn ends(light: &Shape, p: V3) -> f64 {
-    let Shape::Polygon(corners) = light else { return 0.0 };
-    let normal = unit(cross(sub(corners[1], corners[0]), sub(corners[2], corners[0])));
-    let absolute = corners.iter().map(|&corner| along(corner, p, 1.0)).chain([p]);
-    let greatest = absolute.flatten().fold(0.0, |most: f64, x: f64| most.max(x.abs()));
-    (ENDS * greatest / dot(normal, corners[0]).abs()).min(1.0)
-}
-
 /// Judges a prover in so many rooms, at four points in each: a claim must not be contradicted, and no irradiance may be off by more than it
 /// says.
 #[must_use]
@@ -153,7 +144,7 @@ pub fn judge(name: &str, prover: &Prover<'_>, rooms: usize, seed: u64) -> Judgem
             for (&p, value) in points.iter().zip(irradiance) {
                 let light = room.light.shapes(p).swap_remove(0);
                 let occluders: Vec<Shape> = room.occluders.iter().flat_map(|body| body.shapes(p)).collect();
-                let Some(truth) = visible(&light, &occluders, UP, ends(&light, p)) else { continue };
+                let Some(truth) = visible(&light, &occluders, UP, spared(&light, p, ENDS)) else { continue };
                 let is_wrong = claim == Claim::Lit && truth.occluders > 0 || claim == Claim::Dark && truth.left > 1e-12;
                 let off = value.map_or(0.0, |[value, error]| (value - truth.left).abs() / (error + 1e-15));
                 let off = if is_wrong { f64::INFINITY } else { off };

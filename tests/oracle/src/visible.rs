@@ -124,6 +124,17 @@ pub fn visible(light: &Shape, blockers: &[Shape], n: V3, spared: f64) -> Option<
     Some(Visible { all, left, occluders, around })
 }
 
+/// What fraction of the way from `point` to the plane of a light that is given relative to it is this fraction of the greatest coordinate of
+/// both; 0 for a sphere.
+#[must_use]
+pub fn spared(light: &Shape, point: V3, of_coordinates: f64) -> f64 {
+    let Shape::Polygon(corners) = light else { return 0.0 };
+    let normal = unit(cross(sub(corners[1], corners[0]), sub(corners[2], corners[0])));
+    let absolute = corners.iter().map(|&corner| along(corner, point, 1.0)).chain([point]);
+    let greatest = absolute.flatten().fold(0.0, |most: f64, x| most.max(x.abs()));
+    (of_coordinates * greatest / dot(normal, corners[0]).abs()).min(1.0)
+}
+
 /// How a piece is measured: whole, or within a sphere.
 struct Measure {
     cap: Option<Cap>,

@@ -172,24 +172,6 @@ fn samples_know_a_normal_and_a_place() {
     }
 }
 
-/// A sampler prepared in scalars and repeated draws the bits of one that was prepared in packets.
-#[test]
-fn splat_is_the_same_sampler() {
-    let (p, n) = (Vec3::<f32>::new(0.1, 0.2, -0.3), Vec3::<f32>::new(0.0, 0.6, 0.8));
-    let triangle = Triangle::new([0.0, 1.0, 0.0].into(), [1.0, 1.5, 0.0].into(), [0.0, 1.0, 1.0_f32].into());
-    let us = squares_of::<f32x8>(&core::array::from_fn::<_, 8, _>(|i| [i as f32 / 8.0, 0.9 - i as f32 / 9.0]));
-    let wide = Triangle::<f32x8>::splat(triangle);
-    let (pw, nw) = (Vec3::splat(p), Vec3::splat(n));
-    let same = |one: &dyn LightSampler<f32x8>, other: &dyn LightSampler<f32x8>| {
-        let [one, other] = [one, other].map(|sampler| sampler.sample(us));
-        assert_eq!((one.direction, one.pdf), (other.direction, other.pdf));
-        assert_eq!((one.distance, one.uv), (other.distance, other.uv));
-    };
-    same(&triangle.by_area(p).splat::<f32x8>(), &wide.by_area(pw));
-    same(&triangle.by_solid_angle(p).splat::<f32x8>(), &wide.by_solid_angle(pw));
-    same(&triangle.by_projected_solid_angle(p, n).splat::<f32x8>(), &wide.by_projected_solid_angle(pw, nw));
-}
-
 /// Of lights in a slice, each lane takes the one at its index; past the end there is none.
 #[test]
 fn lights_are_gathered_by_the_indices_of_lanes() {

@@ -76,9 +76,9 @@ impl<R: Real> Occlusion<R> {
     /// `cargo test -p etendue-render-tests occlusion::compact -- --nocapture`.
     ///
     /// Behind polyhedra the error is 3e−6 times the angle around the light where the point is nearer to the plane of a face than 1e−2 of
-    /// the distance (1.3e−6 measured), since the rounding of the normal decides which side it is on, and otherwise as above (1e−7 measured).
-    /// To that comes the angle under which corners are seen beside the planes of their faces: a polyhedron no wider than the rounding of its
-    /// coordinates may hide nothing. A point on its surface may be inside or outside.
+    /// the distance, since the rounding of the normal decides which side it is on, and otherwise as above (1e−7 measured everywhere). To that
+    /// comes the angle by which their outlines are displaced for the point, by their [deviation](crate::Polyhedron::deviation): a polyhedron
+    /// no wider than the rounding of its coordinates may hide nothing. A point on its surface may be inside or outside.
     #[inline]
     pub fn visible(&mut self, point: Vec3<R>, normal: Vec3<R>, light: &Solid, occluders: &[Solid]) -> Option<R> {
         self.lobe = None;
