@@ -129,7 +129,9 @@ pub(crate) fn fraction(text: &str) -> Result<f64, String> {
     let valid = value.filter(|x| (1e-6..=1.0).contains(x));
     let value = valid.ok_or_else(|| "must be from 1e-6 to 1, or a percentage, such as 0.01 or 1%".to_owned())?;
     if value > MOST_BARE && !text.ends_with('%') {
-        return Err(format!("is {} % of the mean: write {text}% or {}%", 100.0 * value, 100.0 * value));
+        // without the rounding of the product
+        let whole = (1e6 * value).round() / 1e4;
+        return Err(format!("is {whole} % of the mean: write {text}% or {whole}%"));
     }
     Ok(value)
 }

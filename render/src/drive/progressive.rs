@@ -65,7 +65,7 @@ const WORTH: f64 = 1.0 / 16.0;
 /// The greatest number of passes after which an error is not known that seems to be reached, and stays unknown.
 const PATIENCE: usize = 32;
 /// The number of samples per pixel after which an error that is still uncertain is given up, if no time ends the rendering.
-pub const MOST_UNCERTAIN: u32 = 1 << 17;
+const MOST_UNCERTAIN: u32 = 1 << 17;
 /// The part of the remaining time that a pass may be predicted to take.
 const SPARE: f64 = 0.97;
 /// Samples per second and thread that the first pass may count on; it may be slower by a factor of 4.
@@ -105,10 +105,9 @@ impl Refinement {
     /// their numbers anyway, eighths between them.
     fn counts(&self) -> Result<Vec<u32>, String> {
         let sets = self.settings.sets;
-        let between = |power: u32| (8..16).map(move |eighths| power / 8 * eighths);
-        let powers = (0..=MOST_SAMPLES.ilog2()).map(|bits| 1 << bits);
-        let all = powers.flat_map(|power| std::iter::once(power).chain(between(power).skip(1))).filter(|n| *n > 0);
-        let all = all.filter(|n| *n <= MOST_SAMPLES);
+        let from = |power: u32| std::iter::once(power).chain((9..16).map(move |eighths| power / 8 * eighths));
+        let all = (0..=MOST_SAMPLES.ilog2()).flat_map(|bits| from(1 << bits));
+        let all = all.filter(|n| (1..=MOST_SAMPLES).contains(n));
         let is_fit = |n: u32| n.is_power_of_two() || self.sampler_of(n) == Sampler::Adaptive;
         let is_valid = |&n: &u32| is_fit(n) && self.sampler_of(n).check(n, sets).is_ok();
         let has_variance = |&n: &u32| reports_variance(self.sampler_of(n), n, sets);

@@ -163,7 +163,7 @@ impl Knowledge<'_> {
         let mut whole = seen.all;
         let mut take = |ask: &Ask, all: Option<X8>| whole[ask.packet] += all.unwrap_or_default().keep(ask.lanes);
         for (p, surface) in group.reflecting() {
-            // how much of a picture is hidden is told by a constant light in its place
+            // a constant light in place of the picture tells how much of it is hidden
             let asked = if matches!(of.closed, Closed::Picture(_)) { [seen.behind[p], none] } else { seen.lit[p] };
             for (lanes, precision) in asked.into_iter().zip([Precision::Single, Precision::Double]) {
                 if lanes.any() {

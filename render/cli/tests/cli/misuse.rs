@@ -22,6 +22,7 @@ fn bad_values_are_named_with_their_option() {
         ("render", "--time", "-1", "greater than 0"),
         ("render", "--error", "-1%", "from 1e-6 to 1"),
         ("render", "--error", "1", "is 100 % of the mean: write 1% or 100%"),
+        ("render", "--error", "0.29", "is 29 % of the mean: write 0.29% or 29%"),
         ("render", "--tile", "-16,0,16,16", "four numbers"),
         ("render", "--sampler", "-sobol", "[possible values: "),
         ("render", "--technique", "luck", "[possible values: "),
