@@ -22,7 +22,7 @@
 //! Every routine takes a scalar or a packet; look-ups go lane by lane, with the same bits.
 
 mod cell;
-mod words;
+mod rows;
 
 use crate::real::{Real, Uint, unit_interval};
 use crate::vector::Vec2;
@@ -30,8 +30,7 @@ use crate::warp::Warp;
 pub use cell::{Cell, Cell2d};
 pub(crate) use cell::{locate, place};
 use core::fmt::{self, Display, Formatter};
-#[doc(hidden)]
-pub use words::{Words1d, Words2d};
+use rows::Row;
 
 /// Steps of `u` in the unit interval, and the greatest number of cells in a table.
 const STEPS: f64 = 16_777_216.0;
@@ -139,22 +138,21 @@ impl<'a> PiecewiseConstant1d<'a> {
     /// Draws the cell for `u`.
     #[inline(always)]
     pub fn cell<R: Real>(&self, u: R) -> Cell<R> {
-        self.words().cell(u)
+        self.row().cell(u)
     }
     /// Probability of a cell; 0 past the last one.
     #[inline(always)]
     pub fn pmf<R: Real>(&self, index: R::Uint) -> R {
-        self.words().pmf(index)
+        self.row().pmf(index)
     }
     /// Returns the `u` that `cell` maps to a position in a cell.
     #[inline(always)]
     pub fn invert_cell<R: Real>(&self, index: R::Uint, offset: R) -> R {
-        self.words().invert_cell(index, offset)
+        self.row().invert_cell(index, offset)
     }
-    /// The table as words.
     #[inline(always)]
-    fn words<U: Uint>(&self) -> Words1d<&'a [f32], U> {
-        Words1d { memory: self.cdf, first: U::splat(0), count: U::splat(self.cdf.len() as u32) }
+    fn row<U: Uint>(&self) -> Row<'a, U> {
+        Row { cdfs: self.cdf, first: U::splat(0), count: self.cdf.len() as u32 }
     }
     #[inline(always)]
     fn count<R: Real>(&self) -> R {
@@ -274,25 +272,36 @@ impl<'a> PiecewiseConstant2d<'a> {
     pub fn size(&self) -> [usize; 2] {
         [self.width as usize, self.height as usize]
     }
-    /// The table as words.
     #[inline(always)]
-    pub(crate) fn words<U: Uint>(&self) -> Words2d<&'a [f32], U> {
-        Words2d { memory: self.cdfs, first: U::splat(0), size: [U::splat(self.width), U::splat(self.height)] }
+    fn row<U: Uint>(&self, y: U) -> Row<'a, U> {
+        Row { cdfs: self.cdfs, first: y.wrapping_mul(U::splat(self.width)), count: self.width }
+    }
+    /// The distribution of the rows, after all of them.
+    #[inline(always)]
+    fn marginal<U: Uint>(&self) -> Row<'a, U> {
+        Row { count: self.height, ..self.row(U::splat(self.height)) }
     }
     /// Draws the cell for `u`.
     #[inline(always)]
     pub fn cell<R: Real>(&self, u: Vec2<R>) -> Cell2d<R> {
-        self.words().cell(u)
+        let row = self.marginal().cell(u.y);
+        let column = self.row(row.index).cell(u.x);
+        Cell2d {
+            x: column.index,
+            y: row.index,
+            offset: Vec2::new(column.offset, row.offset),
+            pmf: row.pmf * column.pmf,
+        }
     }
     /// Probability of a cell; 0 outside the image.
     #[inline(always)]
     pub fn pmf<R: Real>(&self, x: R::Uint, y: R::Uint) -> R {
-        self.words().pmf(x, y)
+        self.marginal().pmf::<R>(y) * self.row(y).pmf::<R>(x)
     }
     /// Returns the `u` that `cell` maps to a position in a cell.
     #[inline(always)]
     pub fn invert_cell<R: Real>(&self, x: R::Uint, y: R::Uint, offset: Vec2<R>) -> Vec2<R> {
-        self.words().invert_cell(x, y, offset)
+        Vec2::new(self.row(y).invert_cell(x, offset.x), self.marginal().invert_cell(y, offset.y))
     }
 }
 

@@ -74,7 +74,6 @@ pub mod light;
 pub mod lights;
 pub mod math;
 #[doc(hidden)]
-pub mod memory;
 #[cfg(feature = "alloc")]
 pub mod owned;
 pub mod real;

@@ -138,8 +138,7 @@ pub use distant::{ConstantEnvironment, Sun};
 #[doc(hidden)]
 pub use distant::{EnvironmentByProjectedSolidAngle, EnvironmentBySolidAngle, SunBySolidAngle};
 #[doc(hidden)]
-pub use environment::{ByRadiance, EnvironmentWords};
-pub use environment::{EnvironmentMap, ImageEnvironment, ImageSampler, Texel};
+pub use environment::{ByRadiance, EnvironmentMap, ImageEnvironment, Texel};
 pub use line::Line;
 #[doc(hidden)]
 pub use line::{LineByAngle, LineByLength, LineByProjectedSolidAngle};

@@ -70,16 +70,6 @@ pub trait Uint: Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Bi
     fn lt(self, other: Self) -> Self;
     /// True if any bit of any lane is set.
     fn any(self) -> bool;
-    /// Shifts towards the low bits, in each lane by the five low bits of another.
-    #[inline(always)]
-    fn shr_by(self, bits: Self) -> Self {
-        Self::from_fn(|lane| self.lane(lane) >> (bits.lane(lane) & 31))
-    }
-    /// Quotient, rounded down; 0 where the divisor is.
-    #[inline(always)]
-    fn quotient(self, divisor: Self) -> Self {
-        Self::from_fn(|lane| self.lane(lane).checked_div(divisor.lane(lane)).unwrap_or(0))
-    }
 }
 
 /// Whether this build returns the same bits as builds for all other processors: where they multiply and add in one instruction, and with the
@@ -88,10 +78,6 @@ pub const SAME_BITS: bool = fused::ALWAYS;
 
 /// The greatest number of lanes of a packet: some routines keep a word for each lane, and do not compile for more.
 pub(crate) const MOST_LANES: usize = 16;
-
-/// The numbers and the counters of a loop: see [`Real::iterate_with_words`].
-#[doc(hidden)]
-pub type State<R, const N: usize, const W: usize> = ([R; N], [<R as Real>::Uint; W]);
 
 /// A real number or a packet of them: everything that a warp needs, and no more.
 ///
@@ -253,34 +239,20 @@ pub trait Real:
     #[inline(always)]
     fn iterate<const N: usize, const M: usize>(
         most: usize,
-        numbers: [Self; N],
-        going: [Self::Mask; M],
+        mut numbers: [Self; N],
+        mut going: [Self::Mask; M],
         mut step: impl FnMut([Self; N], [Self::Mask; M]) -> ([Self; N], [Self::Mask; M]),
     ) -> [Self; N] {
-        let step = |(numbers, []): State<Self, N, 0>, going| {
-            let (numbers, going) = step(numbers, going);
-            ((numbers, []), going)
-        };
-        Self::iterate_with_words(most, (numbers, []), going, step).0
-    }
-    /// The same with counters beside the numbers.
-    #[inline(always)]
-    fn iterate_with_words<const N: usize, const W: usize, const M: usize>(
-        most: usize,
-        mut state: State<Self, N, W>,
-        mut going: [Self::Mask; M],
-        mut step: impl FnMut(State<Self, N, W>, [Self::Mask; M]) -> (State<Self, N, W>, [Self::Mask; M]),
-    ) -> State<Self, N, W> {
         if !going.into_iter().any(Mask::any) {
-            return state;
+            return numbers;
         }
         for _ in 0..most {
-            (state, going) = step(state, going);
+            (numbers, going) = step(numbers, going);
             if !going.into_iter().any(Mask::any) {
                 break;
             }
         }
-        state
+        numbers
     }
 
     /// (sin 2πu, cos 2πu) for u = `self`; see [`math`](crate::math) for the errors of this function and of those below. Provided: the

@@ -29,7 +29,6 @@
 mod table;
 
 use crate::lanewise::lanewise;
-use crate::memory::Memory;
 use crate::real::{Real, Uint};
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{CosineHemisphere, Warp};
@@ -88,9 +87,9 @@ pub fn table() -> &'static [f32] {
     TABLE.as_flattened().as_flattened()
 }
 
-/// The five numbers at these places, each in [0, 1], of a table that begins at this word of the memory.
+/// The five numbers at these places, each in [0, 1], of a table of which `number` reads one.
 #[inline(always)]
-fn look_up<R: Real>(memory: &impl Memory<R>, first: R::Uint, row: R, column: R) -> [R; 5] {
+fn look_up<R: Real>(number: impl Fn(R::Uint) -> R, row: R, column: R) -> [R; 5] {
     let place = |x: R| {
         let at = x.clamped(R::lit(0.0), R::lit(1.0)) * R::lit((SIDE - 1) as f64);
         let index = at.lesser(R::lit(SIDE as f64 - 1.5)).to_uint();
@@ -98,11 +97,11 @@ fn look_up<R: Real>(memory: &impl Memory<R>, first: R::Uint, row: R, column: R) 
     };
     let ((i, y), (j, x)) = (place(row), place(column));
     let cell = i.wrapping_mul(R::Uint::splat(SIDE as u32)).wrapping_add(j);
-    let corner = cell.wrapping_mul(R::Uint::splat(5)).wrapping_add(first);
+    let corner = cell.wrapping_mul(R::Uint::splat(5));
     core::array::from_fn(|k| {
         let at = |down: usize, right: usize| {
             let place = (down * SIDE + right) * 5 + k;
-            memory.number(corner.wrapping_add(R::Uint::splat(place as u32)))
+            number(corner.wrapping_add(R::Uint::splat(place as u32)))
         };
         let mix = |from: R, to: R, part: R| (to - from).mul_add(part, from);
         mix(mix(at(0, 0), at(0, 1), x), mix(at(1, 0), at(1, 1), x), y)
@@ -113,12 +112,18 @@ impl<R: Real> Reflection<R> {
     /// Prepares for the roughness α, the unit normal of a surface, and the unit vector towards the viewer.
     #[inline(always)]
     pub fn new(alpha: R, normal: Vec3<R>, view: Vec3<R>) -> Self {
-        Self::with_table(&table(), R::Uint::splat(0), alpha, normal, view)
+        let number = |index: R::Uint| {
+            R::from_fn(|lane| {
+                let number = table().get(index.lane(lane) as usize).copied().unwrap_or(0.0);
+                R::Scalar::lit(f64::from(number))
+            })
+        };
+        Self::with_table(number, alpha, normal, view)
     }
-    /// As [`new`](Self::new), of the numbers of [`table`] in other memory, where they begin at the word `first`.
+    /// As [`new`](Self::new), where `number` reads one of the numbers of [`table`] by its index.
     #[doc(hidden)]
     #[inline(always)]
-    pub fn with_table(memory: &impl Memory<R>, first: R::Uint, alpha: R, normal: Vec3<R>, view: Vec3<R>) -> Self {
+    pub fn with_table(number: impl Fn(R::Uint) -> R, alpha: R, normal: Vec3<R>, view: Vec3<R>) -> Self {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let cos = view.dot(normal);
         let along = normal.mul_add(-cos, view);
@@ -131,7 +136,7 @@ impl<R: Real> Reflection<R> {
         let cos = cos.lesser(one).greater(R::lit(LEAST_COSINE));
         let least = 0.25 / (SIDE - 1) as f64;
         let alpha = alpha.clamped(R::lit(least * least), one);
-        let [fourth_root, slope, across, albedo, schlick] = look_up(memory, first, alpha.sqrt(), cos.sqrt());
+        let [fourth_root, slope, across, albedo, schlick] = look_up(number, alpha.sqrt(), cos.sqrt());
         let (square, double) = (fourth_root * fourth_root, alpha + alpha);
         let (a, c) = (square * square / double, across / double);
         Self {

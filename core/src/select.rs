@@ -26,9 +26,9 @@ mod tree;
 pub use crate::light::bound::LightBound;
 pub use gloss::Gloss;
 pub use spatial::{LightsAt, SpatialLights};
-pub use tree::{Join, LightTree, Node8, TreeAt};
 #[doc(hidden)]
-pub use tree::{TreeChild, TreeWords, TreeWordsAt};
+pub use tree::TreeChild;
+pub use tree::{Join, LightTree, Node8, TreeAt};
 
 use crate::discrete::PiecewiseConstant1d;
 use crate::real::{Real, Uint, unit_interval};

@@ -7,5 +7,4 @@ mod gloss;
 mod light_tree;
 mod owned;
 mod select;
-mod tables_in_memory;
 mod trees_of_bounds;

@@ -191,7 +191,7 @@ impl Graph {
             Op::Less | Op::LessEqual | Op::And | Op::Or | Op::Xor | Op::Not | Op::WordAny => Kind::Truth,
             Op::ToWord | Op::WordAdd | Op::WordSub | Op::WordMul | Op::WordAnd | Op::WordOr | Op::WordXor => Kind::Word,
             Op::WordShl(_) | Op::WordShr(_) | Op::WordReverse | Op::WordLess => Kind::Word,
-            Op::WordShrBy | Op::WordQuotient | Op::Load => Kind::Word,
+            Op::Load => Kind::Word,
             Op::Select => self.kind(operands[1]),
             Op::Call(call) if call.returns_pair() => Kind::Pair,
             _ => Kind::Real,
@@ -251,8 +251,6 @@ impl Graph {
             Op::WordShr(bits) => x[0] >> bits,
             Op::WordReverse => x[0].reverse_bits(),
             Op::WordLess => Uint::lt(x[0], x[1]),
-            Op::WordShrBy => x[0].shr_by(x[1]),
-            Op::WordQuotient => x[0].quotient(x[1]),
             _ => return None,
         };
         Some(self.add_word(value))

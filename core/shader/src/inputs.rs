@@ -1,7 +1,7 @@
 //! Functions of parameters that are recorded as they are asked for.
 
 use crate::graph::Id;
-use crate::module::{Field, Function, Leaf, Module, Parameter, Struct, Type};
+use crate::module::{Function, Leaf, Module, Parameter, Type};
 use crate::number::{Number, Truth, Word, record};
 use crate::record::inputs_of;
 use etendue::{Vec2, Vec3};
@@ -23,13 +23,6 @@ impl Inputs {
         self.count += count as u32;
         self.count - count as u32
     }
-    /// Adds a parameter that is a struct of words.
-    pub(crate) fn words<const N: usize>(&mut self, module: &Module, name: &str, of: usize) -> [Word; N] {
-        let fields = &module.structs[of].fields;
-        assert!(fields.len() == N && fields.iter().all(|field| field.leaf == Leaf::Word));
-        self.parameters.push(Parameter { name: name.into(), of: Type::Struct(of) });
-        core::array::from_fn(|_| Word::input(self.next(1)))
-    }
     /// Adds a parameter that is a struct of numbers, and returns these.
     pub(crate) fn numbers(&mut self, module: &Module, name: &str, of: usize) -> Vec<Number> {
         let leaves = module.structs[of].fields.iter().map(|field| field.leaf.parts());
@@ -45,10 +38,6 @@ impl Inputs {
     }
     pub(crate) fn word(&mut self, name: &str) -> Word {
         Word::input(self.add(name, Leaf::Word))
-    }
-    pub(crate) fn vec2(&mut self, name: &str) -> Vec2<Number> {
-        let first = self.add(name, Leaf::Vec2);
-        Vec2::new(Number::input(first), Number::input(first + 1))
     }
     pub(crate) fn vec3(&mut self, name: &str) -> Vec3<Number> {
         let first = self.add(name, Leaf::Vec3);
@@ -74,11 +63,4 @@ pub(crate) fn add_function(
     });
     let inputs = inputs_of(module, &parameters);
     module.functions.push(Function { name: name.into(), doc, inputs, parameters, result, outputs, graph });
-}
-
-/// Adds the struct of a table: where its parts begin in memory, and how large it is.
-pub(crate) fn add_words(module: &mut Module, name: &str, doc: &str, fields: &[(&str, &str)]) -> usize {
-    let field = |(name, doc): &(&str, &str)| Field { name: (*name).into(), leaf: Leaf::Word, doc: (*doc).into() };
-    let fields = fields.iter().map(field).collect();
-    module.add_struct(Struct { name: name.into(), doc: doc.into(), fields })
 }

@@ -28,8 +28,8 @@
 //! `sample`, `pdf`, `hit`, `invert`, and one for what the technique is uniform over; for each warp `sample`, `pdf` and `invert`. Lights
 //! `by_reflection` and the warp `reflection` take a struct `reflection`, which the table of this name prepares, or the host by
 //! [`Reflection`](etendue::reflection::Reflection).
-//! [`tables`] read tables in memory, and [`tools`] are what is neither. [`Wanted`] leaves functions out, and fields of samples. What only these need is not computed, and the prepared struct has no field that
-//! no function uses, none that is constant, and none twice.
+//! [`tools`] are what is neither. [`Wanted`] leaves functions out, and fields of samples. What only these need is not computed, and the
+//! prepared struct has no field that no function uses, none that is constant, and none twice.
 //!
 //! Equal operations appear once. A value that is used more than once is a variable, the others are parts of expressions. Constants are
 //! decimal numbers that every compiler reads as the same bits.
@@ -38,17 +38,15 @@
 //! In the core, `if mask.any()` marks a path that few calls need. A recorded mask is neither all true nor all false, as in a packet whose
 //! lanes differ, so that both sides are recorded, and the graph keeps the condition. [`plan`] then puts into an `if` whatever is used
 //! only where the condition holds. [`Real::where_any`](etendue::Real::where_any) says the same of several numbers at once, and
-//! [`Real::iterate`](etendue::Real::iterate) is a loop, with counters
-//! [`Real::iterate_with_words`](etendue::Real::iterate_with_words). Other loops of the core have constant bounds, and are written out.
+//! [`Real::iterate`](etendue::Real::iterate) is a loop. Other loops of the core have constant bounds, and are written out.
 //!
 //! What a routine asks of one lane as a number of Rust ([`Real::lane_f64`](etendue::Real::lane_f64), a comparison of scalars, the bits of a
 //! mask) is known for constants alone; anything else panics with a message. Portals, whose tables have numbers of 64 bits,
 //! do ask that, and so does the exponential function: they are not here.
 //!
 //! # Memory
-//! A routine of the core that reads tables takes them as a [`Memory`](etendue::memory::Memory); recorded, that is [`Words`]. In a source all
-//! tables are in one buffer of words of 32 bits, and a parameter of a function is the word at which its table begins. An index past the end reads the last
-//! word, in every language.
+//! The `reflection` alone reads a table: the numbers of [`reflection::table`](etendue::reflection::table), which the host puts into a buffer of
+//! words of 32 bits. A parameter of a function is the word at which they begin. An index past the end reads the last word, in every language.
 //!
 //! | language | the buffer |
 //! |---|---|
@@ -58,15 +56,8 @@
 //! | HLSL | a `ByteAddressBuffer` at register t0 |
 //! | Metal | the last two parameters: the buffer, and its size in bytes |
 //!
-//! | table | words in memory | functions |
-//! |---|---|---|
-//! | `light_tree` | [`Node8::words`](etendue::select::Node8::words) of each node of a [`LightTree`](etendue::select::LightTree), and its places | `choose`, `choose_by`, `pmf` |
-//! | `piecewise_constant_1d`, `piecewise_constant_2d` | the buffer of [`PiecewiseConstant1d`](etendue::discrete::PiecewiseConstant1d) or [`PiecewiseConstant2d`](etendue::discrete::PiecewiseConstant2d) | `cell`, `pmf`, `invert_cell` |
-//! | `equirectangular_environment`, `equal_area_environment` | the buffer of [`ImageEnvironment::build`](etendue::light::ImageEnvironment::build) | `draw`, `sample`, `pdf`, `hit`, `invert` |
-//! | `reflection` | [`reflection::table`](etendue::reflection::table) | `prepare`, `sphere` |
-//!
-//! Lights with pictures are not here: their functions would have up to 8000 lines. A texel drawn from `piecewise_constant_2d` gives the `u` of
-//! a light by area.
+//! Trees of lights, distributions and images of the sky are not here: a host on a GPU has them in its own layout, or asks the core once a
+//! frame. Nor are lights with pictures, whose functions would have up to 8000 lines.
 //!
 //! # Size
 //! We compare the operations of each function of a light with the instructions of the scalar Rust routine, compiled for x86-64-v3, where
@@ -109,8 +100,7 @@
 //! what. Read as C++ with another standard library, each operation in Metal has the same bits, but for conversions to words outside of
 //! [0, 2²⁴].
 //!
-//! On an H100, CUDA (nvcc 13.0, without contraction) returned the bits of Rust in 123 of 124 cases, hostile input included: all lights, warps,
-//! tools and tables. In the other one, of single operations, the lesser of −0 and the constant 0 is −0, as the compiler takes it for a
+//! On an H100, CUDA (nvcc 13.0, without contraction) returned the bits of Rust in all cases but one, hostile input included. In the other one, of single operations, the lesser of −0 and the constant 0 is −0, as the compiler takes it for a
 //! minimum; no routine shows it. Million samples per second, each prepared anew, and 64 of one preparation, beside one core with `f32x8`
 //! (README of the core):
 //!
@@ -142,23 +132,19 @@
 //! | 15 warps: same bits | 66 to 100 % | 67 to 100 % | 99.8 to 100 % |
 //! | … of which 99 % of numbers are within 4 units | 12 | 12 | 15 |
 //! | 14 tools: same bits | 95 to 100 % | 95 to 100 % | 99.4 to 100 % |
-//! | 12 tables: same bits | 72 to 99.8 % | 72 to 99.8 % | 99.9 to 100 % |
 //!
-//! (Three of these tools and one of the tables are the renderer's by now; two of the lights, three of the warps and lights with pictures are
-//! gone.)
+//! (Three of these tools are the renderer's by now; two of the lights, three of the warps and lights with pictures are gone.)
 //!
 //! An H100's Vulkan driver (580.159) keeps less in the first two columns: 52 to 100 % of the numbers of 60 lights, of which 8 have 99 % within
-//! 4 units (points, spots, and what is at infinity), 63 to 99 % of warps' (9 of 15), 81 to 100 % of tools' (11 of 14) and 73 to 98 % of
-//! tables' (5 of 12); hostile input gives NaN in 0.1 % of the numbers of lights where Rust has none. `--exact`, as it was before it
+//! 4 units (points, spots, and what is at infinity), 63 to 99 % of warps' (9 of 15) and 81 to 100 % of tools' (11 of 14); hostile input gives NaN in 0.1 % of the numbers of lights where Rust has none. `--exact`, as it was before it
 //! rounded correctly next to ties, kept 82 to 100 % of 34 lights, of which 10 have 99 % within 4 units, and the NaN: the driver takes
 //! subnormal numbers for 0, which no source can mend. Use CUDA or OpenCL there if densities must be closed for any input.
 //!
-//! On Mesa's device, lights at points and at infinity, spheres by solid angle without their `hit`, environments, trees and all warps but
+//! On Mesa's device, lights at points and at infinity, spheres by solid angle without their `hit` and all warps but
 //! those of GGX normals, reflections and the surface of a patch keep their contract. The others need both, sums that are not reordered
 //! and an `fma` that rounds once or `--exact`; then at most 0.6 % of the numbers of a routine differ, most of them subnormal, and
 //! we have not found why some others do in disks and rectangles by area and the surface of a patch. `.ci/shader` prints the table of all
 //! routines.
-mod distributions;
 mod graph;
 mod inputs;
 mod language;
@@ -183,12 +169,12 @@ pub use list::{
 };
 pub use module::{Access, Field, Function, Leaf, Module, Parameter, Struct, Type};
 pub use names::{pascal, snake};
-pub use number::{Inner, Number, Truth, Word, Words, record};
+pub use number::{Inner, Number, Truth, Word, record};
 pub use plan::{Plan, Step, plan};
 pub use print::{C, Dialect, Wgsl, function_name, print, struct_name};
 pub use record::{add_calls, add_technique, add_warp};
 pub use selection::{Selection, lights, technique_name, warps};
-pub use tables::{add_table, tables};
+pub use tables::{add_reflection, tables};
 pub use tools::{add_tool, tools};
 pub use translate::{Checked, Target};
 pub use wanted::{Part, SampleField, Wanted};

@@ -50,7 +50,7 @@ fn tool_names() -> Vec<&'static str> {
     std::iter::once("all").chain(tools().iter().copied()).collect()
 }
 fn table_names() -> Vec<&'static str> {
-    std::iter::once("all").chain(tables().into_iter().map(|name| &*name.leak())).collect()
+    std::iter::once("all").chain(tables()).collect()
 }
 fn warp_names() -> Vec<&'static str> {
     std::iter::once("all").chain(warps().into_iter().map(|name| &*name.leak())).collect()

@@ -8,8 +8,6 @@ use crate::graph::{Call, Graph, Id, Kind, ONE_MINUS_EPSILON, Op, ZERO};
 use core::cmp::Ordering;
 use core::fmt;
 use core::ops::{Add, AddAssign, BitAnd, BitOr, BitXor, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};
-use etendue::memory::Memory;
-use etendue::real::State;
 use etendue::{Mask, Real, Uint};
 use std::cell::RefCell;
 
@@ -150,27 +148,16 @@ impl Uint for Word {
     fn any(self) -> bool {
         Truth(add(Op::WordAny, &[self.0])).any()
     }
-    fn shr_by(self, bits: Self) -> Self {
-        Self(add(Op::WordShrBy, &[self.0, bits.0]))
-    }
-    fn quotient(self, divisor: Self) -> Self {
-        Self(add(Op::WordQuotient, &[self.0, divisor.0]))
-    }
 }
 
-/// The memory of a source: one sequence of words with all tables. A parameter of a routine is the word at which its table begins.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Words;
-
-impl Memory<Number> for Words {
-    fn word(&self, index: Word) -> Word {
-        Word(add(Op::Load, &[index.0]))
-    }
-    fn number(&self, index: Word) -> Number {
-        Number(add(Op::FromBits, &[add(Op::Load, &[index.0])]))
+impl Number {
+    /// The number at an index in the memory of a source: one sequence of words with all tables. A parameter of a routine is the word at which
+    /// its table begins.
+    #[must_use]
+    pub fn load(index: Word) -> Self {
+        Self(add(Op::FromBits, &[add(Op::Load, &[index.0])]))
     }
 }
-
 impl Word {
     /// A word that a routine is given.
     #[must_use]
@@ -306,25 +293,21 @@ macro_rules! real {
             fn has_bits(value: Word) -> Truth {
                 Truth(add(Op::WordAny, &[value.0]))
             }
-            fn iterate_with_words<const N: usize, const W: usize, const M: usize>(
+            fn iterate<const N: usize, const M: usize>(
                 most: usize,
-                (numbers, words): State<Self, N, W>,
+                numbers: [Self; N],
                 going: [Truth; M],
-                mut step: impl FnMut(State<Self, N, W>, [Truth; M]) -> (State<Self, N, W>, [Truth; M]),
-            ) -> State<Self, N, W> {
-                let kinds = [(Kind::Real, N), (Kind::Word, W), (Kind::Truth, M)];
-                let kinds = kinds.into_iter().flat_map(|(kind, count)| core::iter::repeat_n(kind, count));
+                mut step: impl FnMut([Self; N], [Truth; M]) -> ([Self; N], [Truth; M]),
+            ) -> [Self; N] {
+                let kinds = core::iter::repeat_n(Kind::Real, N).chain(core::iter::repeat_n(Kind::Truth, M));
                 let variables = with(|graph| graph.begin_loop(kinds));
-                let state = |ids: &[Id]| -> State<Self, N, W> {
-                    (core::array::from_fn(|k| Self(ids[k])), core::array::from_fn(|k| Word(ids[N + k])))
-                };
+                let state = |ids: &[Id]| -> [Self; N] { core::array::from_fn(|k| Self(ids[k])) };
                 // one mask is true wherever the loop goes on
-                let inside = |k: usize| if M == 1 { Truth::splat(true) } else { Truth(variables[N + W + k]) };
-                let ids = |(numbers, words): State<Self, N, W>, masks: [Truth; M]| -> Vec<Id> {
-                    let (words, masks) = (words.map(Word::id), masks.map(Truth::id));
-                    numbers.map(Self::id).into_iter().chain(words).chain(masks).collect()
+                let inside = |k: usize| if M == 1 { Truth::splat(true) } else { Truth(variables[N + k]) };
+                let ids = |numbers: [Self; N], masks: [Truth; M]| -> Vec<Id> {
+                    numbers.map(Self::id).into_iter().chain(masks.map(Truth::id)).collect()
                 };
-                let first = ids((numbers, words), going);
+                let first = ids(numbers, going);
                 let (next, next_going) = step(state(&variables), core::array::from_fn(inside));
                 let next = ids(next, next_going);
                 state(&with(|graph| graph.end_loop(most, variables, M, &first, next)))

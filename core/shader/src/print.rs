@@ -170,10 +170,6 @@ impl<'a, D: Dialect> Printer<'a, D> {
             Op::WordXor => bits("^", &all[1]),
             Op::WordShl(count) => bits("<<", &Expression::atom(self.language.word(count))),
             Op::WordShr(count) => bits(">>", &Expression::atom(self.language.word(count))),
-            Op::WordShrBy => {
-                let low = Expression::atom(self.language.word(31));
-                bits(">>", &Expression::bits(&all[1], "&", &low))
-            }
             Op::Load => Expression::atom(format!("etendue_shader_load({}{})", memory(), all[0].text)),
             Op::WordAny => Expression::apart(&all[0], "!=", &Expression::atom(self.language.word(0))),
             Op::Select => self.language.select(&all[0], &all[1], &all[2]),

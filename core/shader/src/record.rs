@@ -201,13 +201,6 @@ pub(crate) fn sample_struct(wanted: &Wanted) -> Struct {
         fields: wanted.fields.iter().map(field).collect(),
     }
 }
-/// The struct of a sample with its texel.
-pub(crate) fn drawn_struct(name: &str, doc: &str, wanted: &Wanted) -> Struct {
-    let mut fields = sample_struct(wanted).fields;
-    let word = |name: &str, doc: &str| Field { name: name.into(), leaf: Leaf::Word, doc: doc.into() };
-    fields.extend([word("x", "Column of the texel."), word("y", "Row of the texel.")]);
-    Struct { name: name.into(), doc: doc.into(), fields }
-}
 /// The struct of a light.
 fn light_struct<T: Technique>(light: &T::Light<Number>) -> Struct {
     let entry = T::ENTRY;

@@ -4,7 +4,7 @@ use crate::list::{Technique, TechniqueVisitor, WarpTechnique, WarpVisitor, every
 use crate::module::Module;
 use crate::names::snake;
 use crate::record::{add_calls, add_technique, add_warp};
-use crate::tables::{add_table, tables};
+use crate::tables::{add_reflection, tables};
 use crate::tools::{add_tool, tools};
 use crate::wanted::Wanted;
 
@@ -91,8 +91,8 @@ impl Selection {
         for tool in tools().iter().filter(|tool| self.tools.iter().any(|name| name == *tool || name == "all")) {
             add_tool(&mut module, tool);
         }
-        for table in tables().iter().filter(|table| self.tables.iter().any(|name| name == *table || name == "all")) {
-            add_table(&mut module, table, &self.wanted);
+        if self.tables.iter().any(|name| name == "all" || tables().contains(&name.as_str())) {
+            add_reflection(&mut module);
         }
         add_calls(&mut module);
         module

@@ -101,7 +101,7 @@ fn tables_are_in_a_buffer() {
         String::from_utf8(language.write(&selection.module(), "Written by a test.").unwrap()).unwrap()
     };
     let without = Selection { tools: vec!["balance_weights".into()], ..Selection::default() };
-    let with = Selection { tables: vec!["light_tree".into()], ..without.clone() };
+    let with = Selection { tables: vec!["reflection".into()], ..without.clone() };
     for (language, buffer, version) in [
         (Language::C, "etendue_shader_load(EtendueShaderMemory memory, etendue_shader_word k)", "C99"),
         (Language::Wgsl, "@group(0) @binding(0) var<storage, read> etendue_shader_memory: array<u32>;", "in WGSL"),
@@ -122,7 +122,7 @@ fn tables_are_in_a_buffer() {
 /// Bits and shifts have operands in parentheses: the grammar of WGSL mixes them with no other operators, which `naga` does not check.
 #[test]
 fn operands_of_bits_have_parentheses_in_wgsl() {
-    let selection = Selection { tables: vec!["light_tree".into()], tools: vec!["all".into()], ..Selection::default() };
+    let selection = Selection { tables: vec!["reflection".into()], tools: vec!["all".into()], ..Selection::default() };
     let module = selection.module();
     let text = print(&module, &Wgsl::default(), "Written by a test.");
     let (mut bits, mut shifts) = (0, 0);
@@ -148,7 +148,7 @@ fn operands_of_bits_have_parentheses_in_wgsl() {
         bits += line.matches(" ^ ").count();
         shifts += line.matches(" >> ").count();
     }
-    assert!(bits > 50 && shifts > 50, "{bits} and {shifts}");
+    assert!(bits > 20 && shifts > 20, "{bits} and {shifts}");
 }
 
 /// What is not WGSL is an error with its place.

@@ -26,7 +26,7 @@ fn unknown_names_are_errors_with_the_list() {
     let text = message(&program(&["--language", "c", "--warps", "cone,cylinder"]));
     assert!(text.contains("'cylinder'") && text.contains("ggx_visible_normals"), "{text}");
     let text = message(&program(&["--language", "c", "--tables", "forest"]));
-    assert!(text.contains("'forest'") && text.contains("light_tree"), "{text}");
+    assert!(text.contains("'forest'") && text.contains("reflection"), "{text}");
     let text = message(&program(&["--language", "c", "--lights", "sun", "--functions", "draw"]));
     assert!(text.contains("'draw'") && text.contains("sample, pdf, hit, invert, measure"), "{text}");
     let text = message(&program(&["--language", "c", "--lights", "sun", "--fields", "color"]));

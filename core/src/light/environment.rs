@@ -3,10 +3,9 @@
 use super::distant::{distant, met};
 use super::sample::{LightSample, TexelSample};
 use super::sampler::LightSampler;
-use crate::discrete::{PiecewiseConstant2d, TableError, Words2d, locate, place};
+use crate::discrete::{PiecewiseConstant2d, TableError, locate, place};
 use crate::math::atan2_turns;
-use crate::memory::Memory;
-use crate::real::{GREATEST, Real, Uint, unit_interval};
+use crate::real::{GREATEST, Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::{Octahedral, Warp};
 
@@ -125,74 +124,52 @@ impl<'a> ImageEnvironment<'a> {
         self.table.size()
     }
 
-    /// A direction in proportion to the weights, with its texel.
-    #[inline(always)]
-    pub fn draw<R: Real>(&self, u: Vec2<R>) -> TexelSample<R> {
-        self.drawn(u)
-    }
     /// Directions in proportion to the weights, as a [`LightSampler`].
     #[inline(always)]
     #[must_use]
-    pub const fn by_radiance(&self) -> ImageSampler<Self> {
-        ImageSampler { environment: *self }
+    pub const fn by_radiance(&self) -> ByRadiance<'a> {
+        ByRadiance { environment: *self }
     }
-    /// The direction of a position in a texel.
+    /// A direction in proportion to the weights, with its texel.
     #[inline(always)]
-    pub fn direction<R: Real>(&self, texel: &Texel<R>) -> Vec3<R> {
-        self.direction_of(texel)
-    }
-    /// The texel of a direction.
-    #[inline(always)]
-    pub fn texel<R: Real>(&self, direction: Vec3<R>) -> Texel<R> {
-        self.texel_of(direction)
-    }
-}
-
-/// An image of the sphere of directions in memory.
-trait Image<R: Real> {
-    type Memory: Memory<R>;
-    fn table(&self) -> Words2d<Self::Memory, R::Uint>;
-    fn map(&self) -> EnvironmentMap;
-
-    /// Columns and rows.
-    #[inline(always)]
-    fn counts(&self) -> [R; 2] {
-        self.table().size.map(R::from_uint)
-    }
-    #[inline(always)]
-    fn drawn(&self, u: Vec2<R>) -> TexelSample<R> {
-        let cell = self.table().cell(u);
+    pub fn draw<R: Real>(&self, u: Vec2<R>) -> TexelSample<R> {
+        let cell = self.table.cell(u);
         let texel = Texel { x: cell.x, y: cell.y, offset: cell.offset };
         let pdf = self.texel_pdf(cell.pmf, cell.y);
         let uv = self.place(&texel);
-        TexelSample { light: distant(self.direction_of(&texel), pdf, uv), x: cell.x, y: cell.y }
+        TexelSample { light: distant(self.direction(&texel), pdf, uv), x: cell.x, y: cell.y }
     }
     /// The pdf of a direction.
     #[inline(always)]
-    fn pdf_of(&self, direction: Vec3<R>) -> R {
-        let texel = self.texel_of(direction);
-        self.texel_pdf(self.table().pmf(texel.x, texel.y), texel.y)
+    fn pdf_of<R: Real>(&self, direction: Vec3<R>) -> R {
+        let texel = self.texel(direction);
+        self.texel_pdf(self.table.pmf(texel.x, texel.y), texel.y)
     }
     /// The `u` of a direction.
     #[inline(always)]
-    fn inverse(&self, direction: Vec3<R>) -> Vec2<R> {
-        let texel = self.texel_of(direction);
-        self.table().invert_cell(texel.x, texel.y, texel.offset)
+    fn inverse<R: Real>(&self, direction: Vec3<R>) -> Vec2<R> {
+        let texel = self.texel(direction);
+        self.table.invert_cell(texel.x, texel.y, texel.offset)
+    }
+    /// Columns and rows, as numbers.
+    #[inline(always)]
+    fn counts<R: Real>(&self) -> [R; 2] {
+        self.size().map(|n| R::lit(n as f64))
     }
     /// Position of a texel in the image, in [0, 1]².
     #[inline(always)]
-    fn place(&self, texel: &Texel<R>) -> Vec2<R> {
+    fn place<R: Real>(&self, texel: &Texel<R>) -> Vec2<R> {
         let [w, h] = self.counts();
         Vec2::new(place(texel.x, texel.offset.x, w), place(texel.y, texel.offset.y, h))
     }
     /// The direction of a position in a texel.
     #[inline(always)]
-    fn direction_of(&self, texel: &Texel<R>) -> Vec3<R> {
-        match self.map() {
+    pub fn direction<R: Real>(&self, texel: &Texel<R>) -> Vec3<R> {
+        match self.map {
             EnvironmentMap::EqualArea => Octahedral.sample(self.place(texel)),
             EnvironmentMap::Equirectangular => {
                 let (one, two, [w, _]) = (R::lit(1.0), R::lit(2.0), self.counts());
-                let ring = self.ring(texel.y);
+                let ring: Ring<R> = self.ring(texel.y);
                 let within = R::blend(ring.lower, one - texel.offset.y, texel.offset.y);
                 let k = within.mul_add(ring.height, ring.start).lesser(two);
                 let sin = (k * (two - k)).sqrt();
@@ -203,9 +180,9 @@ trait Image<R: Real> {
     }
     /// The texel of a direction.
     #[inline(always)]
-    fn texel_of(&self, direction: Vec3<R>) -> Texel<R> {
+    pub fn texel<R: Real>(&self, direction: Vec3<R>) -> Texel<R> {
         let [w, h] = self.counts();
-        match self.map() {
+        match self.map {
             EnvironmentMap::EqualArea => {
                 let square = Octahedral.invert(direction);
                 let ((x, column), (y, row)) = (locate(square.x, w), locate(square.y, h));
@@ -219,11 +196,11 @@ trait Image<R: Real> {
                 // the angle to the nearer pole, in rows
                 let rows = square.sqrt().atan2(z.abs()) * R::lit(1.0 / PI) * h;
                 // of two rows in the middle, the upper one
-                let [_, height] = self.table().size;
-                let middle = R::from_uint(height.wrapping_sub(R::Uint::splat(1)).shr(1));
+                let [_, height] = self.size();
+                let middle = R::lit(((height - 1) / 2) as f64);
                 let near = R::from_uint(rows.clamped(zero, middle).to_uint());
                 let row = R::blend(below, h - one - near, near).to_uint();
-                let ring = self.ring(row);
+                let ring: Ring<R> = self.ring(row);
                 // a middle row belongs to the upper pole as a whole: then 1 − z exceeds 1
                 let tall = R::blend(below & !ring.lower, one - z, square / (one + z.abs()));
                 let within = unit_interval((tall - ring.start) / ring.height);
@@ -236,8 +213,8 @@ trait Image<R: Real> {
 
     /// Heights of a row of an equirectangular image: 2sin²(πr/2h) and 2sin(π(2r+1)/2h)sin(π/2h).
     #[inline(always)]
-    fn ring(&self, y: R::Uint) -> Ring<R> {
-        let [_, rows] = self.counts();
+    fn ring<R: Real>(&self, y: R::Uint) -> Ring<R> {
+        let [_, rows] = self.counts::<R>();
         let y = R::from_uint(y);
         let mirrored = (rows - R::lit(1.0)) - y;
         let lower = mirrored.lt(y);
@@ -250,85 +227,13 @@ trait Image<R: Real> {
     }
     /// Probability over solid angle.
     #[inline(always)]
-    fn texel_pdf(&self, pmf: R, y: R::Uint) -> R {
-        let [w, h] = self.counts();
-        let per_steradian = match self.map() {
+    fn texel_pdf<R: Real>(&self, pmf: R, y: R::Uint) -> R {
+        let [w, h] = self.counts::<R>();
+        let per_steradian = match self.map {
             EnvironmentMap::EqualArea => w * h * R::lit(0.25 / PI),
-            EnvironmentMap::Equirectangular => w * R::lit(0.5 / PI) / self.ring(y).height,
+            EnvironmentMap::Equirectangular => w * R::lit(0.5 / PI) / self.ring::<R>(y).height,
         };
         (pmf * per_steradian).lesser(R::lit(GREATEST))
-    }
-}
-
-impl<'a, R: Real> Image<R> for ImageEnvironment<'a> {
-    type Memory = &'a [f32];
-    #[inline(always)]
-    fn table(&self) -> Words2d<&'a [f32], R::Uint> {
-        self.table.words()
-    }
-    #[inline(always)]
-    fn map(&self) -> EnvironmentMap {
-        self.map
-    }
-}
-
-/// An [`ImageEnvironment`] as words in [memory](crate::memory): what is read where number types write sources.
-///
-/// Of single precision, samples and pdfs have the bits of the environment. On a processor the environment itself is the faster one.
-///
-/// - Domain: the environment's; the memory has the words of the buffer that [`build`](ImageEnvironment::build) has filled.
-/// - Degenerate: any other contents give directions with any pdf.
-///
-/// ```
-/// use etendue::light::{EnvironmentMap, EnvironmentWords, ImageEnvironment};
-/// use etendue::{LightSampler, Vec2};
-/// let mut buffer = [0.0; ImageEnvironment::buffer(4, 2)];
-/// let map = EnvironmentMap::Equirectangular;
-/// let sky = ImageEnvironment::build(&[3.0, 0.0, 1.0, 1.0, 2.0, 0.5, 0.0, 9.0], 4, map, &mut buffer).unwrap();
-/// let here = sky.by_radiance().sample(Vec2::new(0.3_f32, 0.6));
-/// let words = EnvironmentWords { memory: &buffer[..], first: 0_u32, size: [4, 2], map };
-/// let there = words.by_radiance().sample(Vec2::new(0.3_f32, 0.6));
-/// assert_eq!((here.direction, here.pdf), (there.direction, there.pdf));
-/// ```
-#[derive(Clone, Copy, Debug)]
-pub struct EnvironmentWords<M, U> {
-    /// The memory.
-    pub memory: M,
-    /// Index of the first word of the buffer.
-    pub first: U,
-    /// Columns and rows, between 1 and 2²⁴.
-    pub size: [U; 2],
-    /// How the image covers the sphere.
-    pub map: EnvironmentMap,
-}
-
-impl<M: Copy, U: Copy> EnvironmentWords<M, U> {
-    /// Directions in proportion to the weights, as a [`LightSampler`].
-    #[inline(always)]
-    #[must_use]
-    pub const fn by_radiance(&self) -> ImageSampler<Self> {
-        ImageSampler { environment: *self }
-    }
-    /// A direction in proportion to the weights, with its texel.
-    #[inline]
-    pub fn draw<R: Real<Uint = U>>(&self, u: Vec2<R>) -> TexelSample<R>
-    where
-        M: Memory<R>,
-    {
-        self.drawn(u)
-    }
-}
-
-impl<R: Real, M: Memory<R>> Image<R> for EnvironmentWords<M, R::Uint> {
-    type Memory = M;
-    #[inline(always)]
-    fn table(&self) -> Words2d<M, R::Uint> {
-        let Self { memory, first, size, .. } = *self;
-        Words2d { memory, first, size }
-    }
-    #[inline(always)]
-    fn map(&self) -> EnvironmentMap {
-        self.map
     }
 }
 
@@ -337,7 +242,7 @@ impl<R: Real> Warp<R> for ImageEnvironment<'_> {
     type Point = Vec3<R>;
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> Vec3<R> {
-        self.drawn(u).light.direction
+        self.draw(u).light.direction
     }
     #[inline(always)]
     fn pdf(&self, direction: Vec3<R>) -> R {
@@ -349,23 +254,19 @@ impl<R: Real> Warp<R> for ImageEnvironment<'_> {
     }
 }
 
-/// An [`ImageEnvironment`] in the caller's memory as a [`LightSampler`].
-pub type ByRadiance<'a> = ImageSampler<ImageEnvironment<'a>>;
-
 /// An [`ImageEnvironment`] as a [`LightSampler`], the same for all shading points. Surface coordinates: the position in the image.
 ///
 /// Its samples report the pdf of the texel in which their direction lies, which may be the neighbour of the texel that was drawn for the
 /// 6e−7 of the directions next to an edge. [`ImageEnvironment::draw`] returns the drawn texel and its pdf instead.
 #[derive(Clone, Copy, Debug)]
-pub struct ImageSampler<E> {
-    environment: E,
+pub struct ByRadiance<'a> {
+    environment: ImageEnvironment<'a>,
 }
 
-#[allow(private_bounds, reason = "the images are those above")]
-impl<R: Real, E: Image<R>> LightSampler<R> for ImageSampler<E> {
+impl<R: Real> LightSampler<R> for ByRadiance<'_> {
     #[inline(always)]
     fn sample(&self, u: Vec2<R>) -> LightSample<R> {
-        self.hit(self.environment.drawn(u).light.direction)
+        self.hit(self.environment.draw(u).light.direction)
     }
     #[inline(always)]
     fn pdf(&self, w: Vec3<R>) -> R {
@@ -377,6 +278,6 @@ impl<R: Real, E: Image<R>> LightSampler<R> for ImageSampler<E> {
     }
     #[inline(always)]
     fn hit(&self, w: Vec3<R>) -> LightSample<R> {
-        met(w, self.pdf(w), self.environment.place(&self.environment.texel_of(w)))
+        met(w, self.pdf(w), self.environment.place(&self.environment.texel(w)))
     }
 }

@@ -4,7 +4,6 @@ mod build;
 mod eight;
 mod node;
 mod part;
-mod words;
 
 use super::{Choice, Gloss, LightBound, LightChoice, LightsError};
 use crate::real::{MOST_LANES, Real, Uint};
@@ -15,7 +14,6 @@ use eight::Chosen;
 pub use node::Node8;
 use node::{LIGHT, NONE, Shares, TreePoint, WHOLE};
 use part::{Part, Units};
-pub use words::{TreeWords, TreeWordsAt};
 
 /// See [`LightTree::NO_LIGHT`].
 const NO_LIGHT: u32 = u32::MAX;

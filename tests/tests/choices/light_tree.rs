@@ -1,7 +1,6 @@
 //! Trees of lights: exact sums, the pmf of choices, frequencies, and that no light is lost.
 
-use etendue::select::{Choice, Join, LightBound, LightChoice, LightTree, Node8, TreeWords};
-use etendue::{Real, Uint, Vec3, f32x8, u32x8};
+use etendue::select::{Join, LightTree};
 use etendue_judge::generators::{EDGES, Random};
 use etendue_judge::light_tree::{Grove, Lamp, PointAndNormal, Reached, Regime, place};
 use etendue_judge::stats;
@@ -48,67 +47,6 @@ fn probabilities_sum_to_one_exactly_in_all_regimes() {
             }
         }
         println!("{regime:?}: {levels} levels; none has up to {dark:.4} where some light has more");
-    }
-}
-
-/// From words in memory, at every width, choices and pmfs have the bits of the tree.
-#[test]
-fn words_have_the_bits_of_the_tree() {
-    let of = |choice: Choice<f32>| (choice.index, choice.pmf.to_bits(), choice.u.to_bits());
-    for (seed, regime) in (0..).zip(Regime::ALL) {
-        let mut random = Random::new(700 + seed);
-        let (mut chosen, mut levels) = (0, 0);
-        for count in COUNTS {
-            let lamps = regime.lamps(count, &mut random);
-            let bounds: Vec<LightBound> = lamps.iter().map(Lamp::bound).collect();
-            let (mut nodes, mut places) = (vec![Node8::default(); LightTree::nodes_for(count)], vec![0; count]);
-            LightTree::build(&bounds, &mut nodes, &mut places).unwrap();
-            let tree = LightTree::from_buffers(&nodes, &places);
-            // nodes in the middle of other words
-            let before = random.below(9);
-            let mut words = vec![0; before];
-            words.extend(nodes.iter().flat_map(Node8::words));
-            let places_at = words.len() as u32;
-            words.extend(&places);
-            let in_words =
-                TreeWords { memory: &words[..], nodes: before as u32, places: places_at, count: count as u32 };
-            let all = u32x8::splat;
-            let wide = TreeWords {
-                memory: &words[..],
-                nodes: all(before as u32),
-                places: all(places_at),
-                count: all(count as u32),
-            };
-            for _ in 0..cases(12, 200) {
-                let (at, aim) = place(regime, &lamps, &mut random);
-                let [p, n] = [at.0, at.1].map(Vec3::<f32>::from);
-                let (one, other) = (tree.at(p, n), in_words.at(p, n));
-                let eight = wide.at(Vec3::<f32x8>::splat(p), Vec3::splat(n));
-                let bits: [[u32; 2]; 8] = core::array::from_fn(|_| words_of(&mut random));
-                let choices = eight.choose_by([0, 1].map(|k| u32x8::from(bits.map(|bits| bits[k]))));
-                for (lane, bits) in bits.into_iter().enumerate() {
-                    let choice = one.choose_by(bits);
-                    assert_eq!(of(choice), of(other.choose_by(bits)), "{regime:?}, {count} lights");
-                    assert_eq!(
-                        of(choice),
-                        (choices.index.lane(lane), choices.pmf.lane(lane).to_bits(), choices.u.lane(lane).to_bits())
-                    );
-                    let light = if choice.index == LightTree::NO_LIGHT { aim as u32 } else { choice.index };
-                    assert_eq!(one.pmf(light).to_bits(), other.pmf(light).to_bits(), "{regime:?}, {count} lights");
-                    chosen += u32::from(choice.index != LightTree::NO_LIGHT);
-                    levels = levels.max(if choice.pmf > 0.0 { -choice.pmf.log2() as u32 } else { 0 });
-                }
-                let u = random.unit();
-                assert_eq!(of(one.choose(u)), of(other.choose(u)));
-                let lights = u32x8::from(core::array::from_fn(|lane| (lane as u32).wrapping_mul(0x1000_0081)));
-                let pmfs = eight.pmf(lights);
-                for lane in 0..8 {
-                    assert_eq!(one.pmf(lights.lane(lane)).to_bits(), pmfs.lane(lane).to_bits());
-                }
-            }
-        }
-        println!("{regime:?}: {chosen} lights were chosen, the rarest once in 2^{levels}");
-        assert!(chosen > 100);
     }
 }
 

@@ -151,11 +151,7 @@ pub enum Op {
     WordLess,
     /// `a != 0` of a word
     WordAny,
-    /// See [`etendue::Uint::shr_by`].
-    WordShrBy,
-    /// See [`etendue::Uint::quotient`].
-    WordQuotient,
-    /// The word at an index in memory: see [`etendue::memory::Memory`].
+    /// The word at an index in memory: see [`Number::load`](crate::Number::load).
     Load,
     /// The number with the bits of a word.
     FromBits,

@@ -64,7 +64,6 @@ impl Dialect for C {
             Op::ToWord => "etendue_shader_to_word",
             Op::WordReverse => "etendue_shader_reverse_bits",
             Op::WordLess => "etendue_shader_word_less",
-            Op::WordQuotient => "etendue_shader_word_quotient",
             Op::FromBits => "etendue_shader_from_bits",
             _ => panic!("{op:?} is an operator and not a function"),
         }

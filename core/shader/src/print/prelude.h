@@ -94,8 +94,6 @@ ETENDUE_FUNCTION float etendue_shader_inverse_cbrt_estimate(float x) {
 ETENDUE_FUNCTION float etendue_shader_unit(etendue_shader_word k) { return (float)(k >> 8) * 5.9604645e-8f; }
 // All ones where a < b, else 0.
 ETENDUE_FUNCTION etendue_shader_word etendue_shader_word_less(etendue_shader_word a, etendue_shader_word b) { return a < b ? 0xffffffffu : 0u; }
-// The quotient, rounded down; 0 where the divisor is.
-ETENDUE_FUNCTION etendue_shader_word etendue_shader_word_quotient(etendue_shader_word a, etendue_shader_word b) { return b == 0u ? 0u : a / b; }
 // Bit k becomes bit 31 - k.
 ETENDUE_FUNCTION etendue_shader_word etendue_shader_reverse_bits(etendue_shader_word k) {
     k = (k >> 1 & 0x55555555u) | (k & 0x55555555u) << 1;

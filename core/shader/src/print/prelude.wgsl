@@ -43,7 +43,3 @@ fn etendue_shader_unit(k: u32) -> f32 {
 fn etendue_shader_word_less(a: u32, b: u32) -> u32 {
     return select(0u, 0xffffffffu, a < b);
 }
-// The quotient, rounded down; 0 where the divisor is.
-fn etendue_shader_word_quotient(a: u32, b: u32) -> u32 {
-    return select(a / b, 0u, b == 0u);
-}

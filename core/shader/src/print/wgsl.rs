@@ -70,7 +70,6 @@ impl Dialect for Wgsl {
             Op::ToWord => "etendue_shader_to_word",
             Op::WordReverse => "reverseBits",
             Op::WordLess => "etendue_shader_word_less",
-            Op::WordQuotient => "etendue_shader_word_quotient",
             Op::FromBits => "etendue_shader_from_bits",
             _ => panic!("{op:?} is an operator and not a function"),
         }

@@ -2,7 +2,6 @@
 //! too: its translation into Metal is compiled as C++.
 
 mod devices;
-mod distributions;
 mod driver;
 mod header;
 mod lights;

@@ -2,8 +2,6 @@
 
 use crate::driver::{HOSTILE, compare};
 use crate::program::Driver;
-use etendue::memory::Memory;
-use etendue::real::State;
 use etendue::{Mask, Real, Uint};
 use etendue_judge::generators::Random;
 use etendue_shader::*;
@@ -12,22 +10,28 @@ use etendue_shader::*;
 const WORDS: [u32; 6] = [0x3f80_0000, 0xc049_0fdb, 4_000_000_000, 0x0000_0001, 0x7f80_0000, 0];
 
 /// What functions take: numbers, words and truth values; and the memory.
-struct Arguments<R: Real, M> {
+struct Arguments<R: Real> {
     x: [R; 3],
     k: [R::Uint; 2],
     p: [R::Mask; 2],
-    memory: M,
+    load: fn(R::Uint) -> R,
 }
-impl Arguments<f32, &'static [u32]> {
+impl Arguments<f32> {
     fn of(x: &[f32]) -> Self {
+        let load = |k: u32| WORDS.get(k as usize).map_or(0.0, |bits| f32::from_bits(*bits));
         let [truth, word] = [|x: f32| u32::from(x > 0.5), f32::to_bits];
         let (k, p) = ([word(x[3]), word(x[4])], [truth(x[5]) == 1, truth(x[6]) == 1]);
-        Self { x: [x[0], x[1], x[2]], k, p, memory: &WORDS }
+        Self { x: [x[0], x[1], x[2]], k, p, load }
     }
 }
-impl Arguments<Number, Words> {
+impl Arguments<Number> {
     fn inputs() -> Self {
-        Self { x: [0, 1, 2].map(Number::input), k: [3, 4].map(Word::input), p: [5, 6].map(Truth::input), memory: Words }
+        Self {
+            x: [0, 1, 2].map(Number::input),
+            k: [3, 4].map(Word::input),
+            p: [5, 6].map(Truth::input),
+            load: Number::load,
+        }
     }
 }
 const NAMES: [(&str, Leaf); 7] = [
@@ -71,7 +75,7 @@ impl Value<f32> {
 }
 
 /// Adds one odd number after another, so that no step is like another, and returns the sum and the next one.
-fn squares<R: Real, M>(of: &Arguments<R, M>, count: usize) -> [R; 2] {
+fn squares<R: Real>(of: &Arguments<R>, count: usize) -> [R; 2] {
     let step = |[sum, odd]: [R; 2], [p, q]: [R::Mask; 2]| {
         let going = p | q;
         let next = [sum + odd, odd + R::lit(2.0)];
@@ -80,30 +84,28 @@ fn squares<R: Real, M>(of: &Arguments<R, M>, count: usize) -> [R; 2] {
     R::iterate(count, [of.x[0], R::lit(1.0)], of.p, step)
 }
 
-/// The sum of the numbers of a table with the weights 1, ½, ⅓, …, each of which a loop inside of the loop makes: until the first word that
-/// is 0, or one that is negative if `p` holds. Also, the number of steps, and a sum of words.
-fn table_sums<R: Real, M: Memory<R>>(of: &Arguments<R, M>) -> [R; 3] {
-    let (one, next) = (R::lit(1.0), R::Uint::splat(1));
-    let step = |([sum, all], [index, words]): State<R, 2, 2>, [going]: [R::Mask; 1]| {
-        let (word, number) = (of.memory.word(index), of.memory.number(index));
-        let going = going & R::has_bits(word) & !(of.p[0] & number.lt(R::lit(0.0)));
+/// The sum of the numbers of a table with the weights 1, ½, ⅓, …, each of which a loop inside of the loop makes: until the first number that
+/// is 0, or one that is negative if `p` holds. Also, the number of steps.
+fn table_sums<R: Real>(of: &Arguments<R>) -> [R; 2] {
+    let (zero, one) = (R::lit(0.0), R::lit(1.0));
+    let step = |[sum, all, index]: [R; 3], [going]: [R::Mask; 1]| {
+        let number = (of.load)(index.to_uint());
+        let going = going & !(number.le(zero) & number.ge(zero)) & !(of.p[0] & number.lt(zero));
         let weigh = |[weight, k]: [R; 2], [more]: [R::Mask; 1]| {
             let here = more & going;
             let after = k + one;
-            ([R::blend(here, one / after, weight), R::blend(here, after, k)], [here & after.le(R::from_uint(index))])
+            ([R::blend(here, one / after, weight), R::blend(here, after, k)], [here & after.le(index)])
         };
-        let [weight, count] = R::iterate(5, [one, R::lit(0.0)], [going], weigh);
-        let sums = [R::blend(going, number.mul_add(weight, sum), sum), R::blend(going, all + count, all)];
-        let words = R::blend_uint(going, words ^ word.shr_by(index), words);
-        ((sums, [R::blend_uint(going, index.wrapping_add(next), index), words]), [going])
+        let [weight, count] = R::iterate(5, [one, zero], [going], weigh);
+        let next = [number.mul_add(weight, sum), all + count, index + one];
+        ([R::blend(going, next[0], sum), R::blend(going, next[1], all), R::blend(going, next[2], index)], [going])
     };
-    let start = ([of.x[0], R::lit(0.0)], [R::Uint::splat(0), of.k[0]]);
-    let ([sum, all], [_, words]) = R::iterate_with_words(9, start, [R::Mask::splat(true)], step);
-    [sum, all, R::unit(words)]
+    let [sum, all, _] = R::iterate(9, [of.x[0], zero, zero], [R::Mask::splat(true)], step);
+    [sum, all]
 }
 
 /// An operation on the arguments, and how WGSL writes it. The match has no other arm, so that a new operation needs its line here.
-fn operation<R: Real, M: Memory<R>>(op: Op, of: &Arguments<R, M>) -> (Value<R>, &'static str) {
+fn operation<R: Real>(op: Op, of: &Arguments<R>) -> (Value<R>, &'static str) {
     let ([a, b, c], [k, m], [p, q]) = (of.x, of.k, of.p);
     let (real, truth, word) = (Value::Real, Value::Truth, Value::Word);
     match op {
@@ -145,10 +147,7 @@ fn operation<R: Real, M: Memory<R>>(op: Op, of: &Arguments<R, M>) -> (Value<R>, 
         Op::WordShr(bits) => (word(k.shr(bits)), "k >> 7u"),
         Op::WordReverse => (word(k.reverse_bits()), "reverseBits(k)"),
         Op::WordLess => (word(Uint::lt(k, m)), "etendue_shader_word_less(k, m)"),
-        Op::WordShrBy => (word(k.shr_by(m)), "k >> (m & 31u)"),
-        Op::WordQuotient => (word(k.quotient(m)), "etendue_shader_word_quotient(k, m)"),
-        Op::Load => (word(of.memory.word(k)), "etendue_shader_load(k)"),
-        Op::FromBits => (real(of.memory.number(k)), "etendue_shader_from_bits(etendue_shader_load(k))"),
+        Op::Load | Op::FromBits => (real((of.load)(k)), "etendue_shader_from_bits(etendue_shader_load(k))"),
         Op::WordAny => (truth(R::has_bits(k & m)), "(k & m) != 0u"),
         Op::Call(Call::SinCosTurns) | Op::Part(0) => (real(a.sin_cos_turns().0), "v1.x"),
         Op::Call(Call::SinCosQuarters) | Op::Part(_) => (real(a.sin_cos_quarters().1), "v1.y"),
@@ -168,14 +167,13 @@ fn operations() -> Vec<Op> {
     let choices = [Op::Lesser, Op::Greater, Op::Less, Op::LessEqual, Op::And, Op::Or, Op::Xor, Op::Not, Op::Select];
     let bits = [Op::Pow2Scale, Op::InverseCbrtEstimate, Op::Unit, Op::FromWord, Op::ToWord, Op::WordReverse];
     let words = [Op::WordAdd, Op::WordSub, Op::WordMul, Op::WordAnd, Op::WordOr, Op::WordXor, Op::WordLess];
-    let memory = [Op::WordShrBy, Op::WordQuotient, Op::Load, Op::FromBits];
-    let others = [Op::WordShl(7), Op::WordShr(7), Op::WordAny, Op::Loop(0)];
-    [&constants[..], &sums, &choices, &bits, &words, &memory, &others, &calls.map(Op::Call)].concat()
+    let others = [Op::Load, Op::WordShl(7), Op::WordShr(7), Op::WordAny, Op::Loop(0)];
+    [&constants[..], &sums, &choices, &bits, &words, &others, &calls.map(Op::Call)].concat()
 }
 
 /// Numbers that one function returns together: operations that are alike but not the same, what a simplification must keep, and
 /// expressions inside of expressions.
-fn together<R: Real, M: Memory<R>>(of: &Arguments<R, M>) -> Vec<Vec<R>> {
+fn together<R: Real>(of: &Arguments<R>) -> Vec<Vec<R>> {
     let ([a, b, c], [k, m], [p, q]) = (of.x, of.k, of.p);
     let (zero, one, same) = (R::lit(0.0), R::lit(1.0), a);
     let truth = |mask: R::Mask| R::blend(mask, one, zero);
@@ -244,7 +242,7 @@ fn together<R: Real, M: Memory<R>>(of: &Arguments<R, M>) -> Vec<Vec<R>> {
 /// The functions of a module with their results: each operation, and what stands together.
 fn module() -> Module {
     let parameters = || NAMES.map(|(name, leaf)| Parameter { name: name.into(), of: Type::Leaf(leaf) }).to_vec();
-    let function = |name: String, value: &dyn Fn(&Arguments<Number, Words>) -> Value<Number>| {
+    let function = |name: String, value: &dyn Fn(&Arguments<Number>) -> Value<Number>| {
         let ((result, outputs), graph) = record(|| value(&Arguments::inputs()).ids());
         let inputs = (0..NAMES.len()).map(|parameter| Access { parameter, field: None, axis: None }).collect();
         let (doc, parameters, result) = ("A function of a test.".into(), parameters(), Type::Leaf(result));

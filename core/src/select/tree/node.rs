@@ -2,7 +2,6 @@
 
 use super::part::{Part, SMALL, WEAK};
 use crate::lanewise::{lanewise, only};
-use crate::memory::Memory;
 use crate::real::{Mask, Real, Uint, unit_interval};
 use crate::select::Gloss;
 use crate::vector::Vec3;
@@ -30,8 +29,7 @@ pub(super) const DARK: f32 = f32::NEG_INFINITY;
 /// In place of the cosine of a cone, this byte says that the lights emit from both sides.
 const TWO_SIDED: u32 = 255;
 
-/// A node of a [`LightTree`](super::LightTree): eight lights or sets of lights. Its contents are private; what is needed is the memory, which
-/// consists of the [`words`](Self::words).
+/// A node of a [`LightTree`](super::LightTree): eight lights or sets of lights. Its contents are private; what is needed is the memory.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Node8 {
@@ -55,10 +53,6 @@ pub struct Node8 {
     pub(super) link: u32,
 }
 
-/// Places of the children and of the link among the words of a node. What is stored of each child are eight words.
-pub(super) const CHILD: u32 = 80;
-pub(super) const LINK: u32 = 89;
-
 /// Children of nodes, one in each lane.
 pub(super) struct Children<C: Real> {
     center: Vec3<C>,
@@ -71,20 +65,6 @@ pub(super) struct Children<C: Real> {
 }
 
 impl<C: Real> Children<C> {
-    /// Reads them from words, given the index of the first word of the child.
-    #[inline(always)]
-    pub(super) fn read(memory: &impl Memory<C>, first: C::Uint) -> Self {
-        let at = |k: u32| first.wrapping_add(C::Uint::splat(8 * k));
-        Self {
-            center: Vec3::new(memory.number(at(0)), memory.number(at(1)), memory.number(at(2))),
-            reach: memory.number(at(3)),
-            power: memory.number(at(4)),
-            bounds: memory.word(at(5)),
-            normals: memory.word(at(6)),
-            deviations: memory.word(at(7)),
-            turns: [memory.word(at(8)), memory.word(at(9))],
-        }
-    }
     /// Their weights at a point of a surface, and whether they can contribute: else the weight is any number. `plain` says that none is a
     /// spot light or emits from both sides. On glossy surfaces, the weights are by what these reflect.
     #[inline(always)]
@@ -203,8 +183,6 @@ fn ceiling(x: f64, most: f64) -> u32 {
 }
 
 impl Node8 {
-    /// Number of its words.
-    pub const WORDS: usize = LINK as usize + 1;
     /// To be called before all children are stored again.
     pub(super) fn forget_kinds(&mut self) {
         self.plain = 1;
@@ -299,17 +277,6 @@ impl Node8 {
             turns: [word(&self.turns[0]), word(&self.turns[1])],
         }
     }
-    /// The node as words, in the order in which they are in memory: what other devices read.
-    #[must_use]
-    pub fn words(&self) -> [u32; Self::WORDS] {
-        let numbers = self.center.iter().flatten().chain(&self.reach).chain(&self.power).map(|x| x.to_bits());
-        let packed = self.bounds.iter().chain(&self.normal).chain(&self.deviation).chain(self.turns.iter().flatten());
-        let mut words = [0; Self::WORDS];
-        let all = numbers.chain(packed.chain(&self.child).copied()).chain([self.plain, self.link]);
-        words.iter_mut().zip(all).for_each(|(to, word)| *to = word);
-        words
-    }
-
     /// The children's weights at the point of one of eight lanes, in negative where they cannot contribute.
     #[inline(always)]
     pub(super) fn weigh_at(&self, lane: usize, at: &TreePoint<[f32; 8]>, gloss: Option<&Gloss<[f32; 8]>>) -> f32x8 {
@@ -417,7 +384,8 @@ pub(super) fn bits_of<R: Real>(u: R) -> [R::Uint; 2] {
 pub(super) fn sixteen<U: Uint>(state: U) -> (U, U) {
     // a linear congruential generator, and the output function of PCG (O'Neill 2014)
     let state = state.wrapping_mul(U::splat(747_796_405)).wrapping_add(U::splat(2_891_336_453));
-    let word = state.shr_by(state.shr(28).wrapping_add(U::splat(4))) ^ state;
+    let down = U::from_fn(|lane| state.lane(lane) >> ((state.lane(lane) >> 28) + 4));
+    let word = down ^ state;
     let word = word.wrapping_mul(U::splat(277_803_737));
     (state, (word.shr(22) ^ word).shr(16) ^ (word & U::splat(0xffff)))
 }
@@ -425,11 +393,12 @@ pub(super) fn sixteen<U: Uint>(state: U) -> (U, U) {
 /// The position within a share, which is less than 2¹⁶ times the share, stretched to all of 32 bits with sixteen new ones: exactly uniform.
 /// The share is at most 2¹⁶.
 #[inline(always)]
-pub(super) fn stretched<U: Uint>(within: U, sixteen: U, share: U) -> U {
+pub(super) fn stretched(within: u32, sixteen: u32, share: u32) -> u32 {
     // long division of 48 bits
-    let high = within.quotient(share);
+    let quotient = |x: u32| x.checked_div(share).unwrap_or(0);
+    let high = quotient(within);
     let rest = within.wrapping_sub(high.wrapping_mul(share));
-    high.shl(16) | (rest.shl(16) | sixteen).quotient(share)
+    high << 16 | quotient(rest << 16 | sixteen)
 }
 
 /// `a·b + c`, rounded once: the packet's own method of that name rounds twice where the target has no such instruction.
