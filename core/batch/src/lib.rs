@@ -39,8 +39,7 @@
 //! the standard library in them are not: there, each operation is a call.
 //!
 //! # Costs
-//! `cargo bench -p etendue-batch --features dispatch` prints nanoseconds per sample for batches of 1, 8, 64 and 4096 at every level, beside a
-//! loop over packets of the core with the instructions of that build. A call repeats the prepared light in all lanes first, so a batch of 1
+//! A call repeats the prepared light in all lanes first, so a batch of 1
 //! takes as long as a whole packet and more: for one element there are [`Batch::sample_one`] and others, in single numbers.
 //!
 //! `benches/peers/single_calls.py` prints nanoseconds per call from C: of the textbook's formulas, of the C library, which calls this crate, and
