@@ -16,6 +16,7 @@ mod view;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use etendue_laboratory::chart;
+use etendue_laboratory::interrupt::survive_limits_of_files;
 use etendue_laboratory::options::say;
 use std::any::TypeId;
 use std::error::Error;
@@ -80,6 +81,7 @@ fn main() -> ExitCode {
         ));
         return ExitCode::from(3);
     }
+    survive_limits_of_files();
     match run(arguments().command) {
         Ok(()) => ExitCode::SUCCESS,
         // the reader has closed the pipe, as `head` does: this ends the program as SIGPIPE ends others, without a message
