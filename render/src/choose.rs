@@ -13,12 +13,10 @@ use crate::bvh::BuildError;
 use crate::lights::Lights;
 use crate::named::named;
 use crate::packet::{V8, X8};
-use allocation::{Allocated, FEW};
+use allocation::FEW;
 use choose_light::ChooseLight;
-use etendue::discrete::PiecewiseConstant2d;
-use etendue::lights::MixtureAt;
 use etendue::owned::OwnedTree;
-use etendue::select::{Choice, Gloss, LightsAt, SpatialLights, TreeAt, UniformLights};
+use etendue::select::{Choice, Gloss, LightsAt, SpatialLights, UniformLights};
 use etendue::{Real, u32x8};
 use kinds::Kinds;
 use power::Power;
@@ -67,45 +65,25 @@ pub struct Chooser {
     only_deltas: bool,
 }
 
-/// The probabilities with which the lights are chosen at the shading points of a packet.
-#[allow(clippy::large_enum_variant, reason = "it lives on the stack, for one packet")]
-pub enum LightPmf<'a> {
-    /// There is one light.
-    One,
-    /// The same for each.
-    Uniform(UniformLights),
-    /// By power.
-    Power(PiecewiseConstant2d<'a>),
-    /// By what each of a few lights can contribute.
-    Spatial(LightsAt<X8>),
-    /// By a tree.
-    Tree(TreeAt<'a, X8>),
-    /// By the kinds of lights, then by trees.
-    Kinds(MixtureAt<'a, X8>),
-    /// By an allocation of the samples.
-    Allocated(&'a Allocated<'a>),
-}
-
-impl LightPmf<'_> {
-    /// The pmf of a light.
-    #[inline]
-    pub fn of(&self, light: u32) -> X8 {
-        match self {
-            Self::One => X8::lit(1.0),
-            Self::Uniform(at) => <UniformLights as ChooseLight>::pmf(at, light),
-            Self::Power(at) => Power::pmf(at, light),
-            Self::Spatial(at) => SpatialLights::pmf(at, light),
-            Self::Tree(at) => OwnedTree::pmf(at, light),
-            Self::Kinds(at) => Kinds::pmf(at, light),
-            Self::Allocated(allocated) => allocated.pmf(light),
-        }
-    }
-}
+/// The probabilities of lights at the shading points of a packet, by their indices.
+pub type LightPmf<'a> = &'a dyn Fn(u32) -> X8;
 
 /// Chooses in one way.
 #[inline(always)]
 fn choose_by<C: ChooseLight>(way: &C, p: V8, normal: V8, gloss: Option<&Gloss<X8>>, numbers: [X8; 2]) -> Choice<X8> {
     C::choose(&way.at(p, normal, gloss), numbers)
+}
+
+/// Takes the probabilities with which one way chooses.
+#[inline(always)]
+fn pmf_by<C: ChooseLight, T>(
+    way: &C,
+    [p, normal]: [V8; 2],
+    gloss: Option<&Gloss<X8>>,
+    take: impl FnOnce(LightPmf<'_>) -> T,
+) -> T {
+    let at = way.at(p, normal, gloss);
+    take(&|light| C::pmf(&at, light))
 }
 
 impl Chooser {
@@ -180,16 +158,16 @@ impl Chooser {
             Way::One | Way::Spatial(_) | Way::Kinds(_) => unreachable!("chosen before"),
         }
     }
-    /// The probabilities with which [`choose`](Self::choose) chooses at these points.
-    #[inline(always)]
-    pub fn pmf(&self, p: V8, normal: V8, gloss: Option<&Gloss<X8>>) -> LightPmf<'_> {
+    /// Takes the probabilities with which [`choose`](Self::choose) chooses at these points. (They are not returned, since what tells them is
+    /// large.)
+    pub fn pmf<T>(&self, p: V8, normal: V8, gloss: Option<&Gloss<X8>>, take: impl FnOnce(LightPmf<'_>) -> T) -> T {
         match &self.way {
-            Way::One => LightPmf::One,
-            Way::Uniform(way) => LightPmf::Uniform(ChooseLight::at(way, p, normal, gloss)),
-            Way::Power(way) => LightPmf::Power(way.at(p, normal, gloss)),
-            Way::Spatial(way) => LightPmf::Spatial(ChooseLight::at(way, p, normal, gloss)),
-            Way::Tree(way) => LightPmf::Tree(way.at(p, normal, gloss)),
-            Way::Kinds(way) => LightPmf::Kinds(way.at(p, normal, gloss)),
+            Way::One => take(&|_| X8::lit(1.0)),
+            Way::Uniform(way) => pmf_by(way, [p, normal], gloss, take),
+            Way::Power(way) => pmf_by(way, [p, normal], gloss, take),
+            Way::Spatial(way) => pmf_by(way, [p, normal], gloss, take),
+            Way::Tree(way) => pmf_by(way, [p, normal], gloss, take),
+            Way::Kinds(way) => pmf_by(way, [p, normal], gloss, take),
         }
     }
 }

@@ -31,7 +31,7 @@ pub(crate) mod sun;
 
 use crate::bvh::{PrimitiveId, PrimitiveIds};
 use crate::geometry::{self, Geometry};
-use crate::packet::{V8, X8, each_bit, select};
+use crate::packet::{V8, X8, each_bit, equal, select};
 use crate::scene::light_picture::LightPicture;
 use crate::scene::light_profile::LightProfile;
 use crate::scene::{Scene, Shape};
@@ -39,7 +39,7 @@ use crate::technique::Measure;
 pub use chosen::{Chosen, Drawn, LightDirection};
 use directed::DirectedLight;
 use etendue::select::{LightBound, SpatialLights};
-use etendue::{Real, Vec2, u32x8};
+use etendue::{Mask, Real, Vec2, u32x8};
 use kinds::{
     ONLY_AREAS, ONLY_DELTAS, PICTURES, PROFILES, SHAPES, SPREADS, UNEVEN, UNSEENS, area_lights, delta_lights,
     sample_delta,
@@ -155,10 +155,9 @@ impl Lights {
     /// Lights with these indices.
     #[inline(always)]
     pub fn chosen(&self, index: u32x8) -> Chosen {
-        if let [only] = &self.packed[..]
-            && self.unpacked.is_empty()
-        {
-            return Chosen::new(only.map(|half| half.map(X8::splat)));
+        let first = index.as_array()[0];
+        if self.unpacked.is_empty() && equal(index, u32x8::splat(first)).all() {
+            return Chosen::new(self.packed[first as usize].map(|half| half.map(X8::splat)));
         }
         let own;
         let rows = if self.unpacked.is_empty() {
@@ -183,10 +182,13 @@ impl Lights {
         let (mut to, radiance) = if kinds & !SHAPES == 0 && kinds.is_power_of_two() {
             let to = geometry::sample(kinds.trailing_zeros(), chosen.vectors(), measure, p, normal, u);
             (to, chosen.radiance)
-        } else if kinds & UNEVEN != 0 {
-            self.uneven(chosen, measure, p, normal, u)
         } else {
-            self.by_kind(chosen, measure, p, normal, u)
+            let (mut to, mut radiance) = (LightDirection::none(), chosen.radiance);
+            match kinds & UNEVEN {
+                0 => self.by_kind(chosen, (measure, u), [p, normal], &mut to, &mut radiance),
+                _ => self.uneven(chosen, (measure, u), [p, normal], &mut to, &mut radiance),
+            }
+            (to, radiance)
         };
         to.emits = to.emits | chosen.has(TWO_SIDED);
         let mut primitives = chosen.primitives;
@@ -199,18 +201,24 @@ impl Lights {
     }
     /// Samples a scene with lights that emit unevenly: those in lanes of their own, and what the points see of panels with a spread.
     #[inline(never)]
-    fn uneven(&self, chosen: &Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> (LightDirection, V8) {
+    fn uneven(
+        &self,
+        chosen: &Chosen,
+        by: (Measure, Vec2<X8>),
+        [p, normal]: [V8; 2],
+        to: &mut LightDirection,
+        radiance: &mut V8,
+    ) {
         let narrowed = (self.kinds & SPREADS != 0).then(|| chosen.narrowed(self.kinds & SHAPES, p));
         let part = narrowed.as_ref().map_or(chosen, |(_, part)| part);
-        let (to, mut radiance) = self.by_kind(part, measure, p, normal, u);
+        self.by_kind(part, by, [p, normal], to, radiance);
         if let Some((normal, _)) = narrowed {
             let lanes = chosen.has(SPREAD) & !chosen.has(PROFILED);
-            radiance = radiance * chosen.spread.attenuation_in(lanes, to.direction, normal);
+            *radiance = *radiance * chosen.spread.attenuation_in(lanes, to.direction, normal);
             if self.kinds & PROFILES != 0 {
-                self.distribute(chosen, to.direction, normal.normalize(), &mut radiance);
+                self.distribute(chosen, to.direction, normal.normalize(), radiance);
             }
         }
-        (to, radiance)
     }
     /// Multiplies the radiance of lights with profiles by what these have in the sampled directions.
     fn distribute(&self, chosen: &Chosen, direction: V8, normal: V8, radiance: &mut V8) {
@@ -223,34 +231,43 @@ impl Lights {
         });
     }
     /// Samples every kind of light that the scene has, each in its lanes.
-    fn by_kind(&self, chosen: &Chosen, measure: Measure, p: V8, normal: V8, u: Vec2<X8>) -> (LightDirection, V8) {
-        let (mut drawn, mut radiance): (Option<LightDirection>, V8) = (None, chosen.radiance);
+    #[inline(never)]
+    fn by_kind(
+        &self,
+        chosen: &Chosen,
+        (measure, u): (Measure, Vec2<X8>),
+        [p, normal]: [V8; 2],
+        to: &mut LightDirection,
+        radiance: &mut V8,
+    ) {
         each_bit(self.kinds & (SHAPES | ONLY_DELTAS | 1 << SKY), |kind| {
             let kind = kind as u32;
             let here = chosen.is(kind);
+            if !here.any() {
+                return;
+            }
             let sample = match kind {
                 kind if SHAPES >> kind & 1 == 0 => match &self.sky {
                     Some(sky) if kind == SKY => {
                         let (sample, from_sky) = sky.sample(measure, p, normal, u);
-                        radiance = V8::blend(here, from_sky, radiance);
+                        *radiance = V8::blend(here, from_sky, *radiance);
                         sample.into()
                     }
                     _ if kind == DIRECTED => {
                         let (sample, factor) = directed::sample(&self.directed, chosen, p, here);
-                        radiance = V8::blend(here, radiance * factor, radiance);
+                        *radiance = V8::blend(here, *radiance * factor, *radiance);
                         sample.into()
                     }
                     _ => sample_delta(kind, chosen, p, u).into(),
                 },
                 _ if self.kinds & PICTURES != 0 => {
                     let shown = (&self.shapes[..], &self.pictures[..]);
-                    self.tables.sample(shown, (kind, here), chosen, (measure, u), [p, normal], &mut radiance)
+                    self.tables.sample(shown, (kind, here), chosen, (measure, u), [p, normal], radiance)
                 }
                 _ => geometry::sample(kind, chosen.vectors(), measure, p, normal, u),
             };
-            drawn = Some(LightDirection::blend(here, sample, drawn));
+            to.put(here, &sample);
         });
-        (drawn.unwrap_or_else(|| unreachable!("there is a light")), radiance)
     }
     /// The light of a shape that is one.
     #[inline]

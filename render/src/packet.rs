@@ -28,16 +28,23 @@ pub fn max(a: X8, b: X8) -> X8 {
     Real::greater(a, b)
 }
 
+/// The mask of lanes whose bits are all set, where those of the others are 0.
+#[inline]
+fn mask(lanes: u32x8) -> M8 {
+    // not by a number of eight bits, from which the lanes would have to be found again
+    X8::from_bits(lanes & u32x8::splat(1.0_f32.to_bits())).gt(X8::lit(0.0))
+}
+
 /// `a == b` per lane.
 #[inline]
 pub fn equal(a: u32x8, b: u32x8) -> M8 {
-    M8::from_bits(a.simd_eq(b).to_bitmask())
+    mask(a.simd_eq(b))
 }
 
 /// `a < b` per lane.
 #[inline]
 pub fn below(a: u32x8, b: u32x8) -> M8 {
-    M8::from_bits(a.simd_lt(b).to_bitmask())
+    mask(a.simd_lt(b))
 }
 
 /// `yes` where the mask is true, `no` elsewhere.

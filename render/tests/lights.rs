@@ -58,12 +58,12 @@ fn the_pdf_of_a_direction_is_that_with_which_it_was_drawn() {
             let chosen = lights.chosen(choice.index);
             let Drawn { to: drawn, primitives, .. } =
                 lights.sample(&chosen, Measure::SolidAngle, p, normal, Vec2::new(x, y));
-            let pmf = chooser.pmf(p, normal, None);
+            let pmf = |light| chooser.pmf(p, normal, None, |pmf| pmf(light));
             let sampled = choice.pmf.gt(X8::lit(0.0)) & drawn.pdf.gt(X8::lit(0.0)) & !drawn.delta;
             for lane in (0..8).filter(|&lane| sampled.lane(lane)) {
                 let index = primitives.lane(lane).shape().unwrap();
                 let geometry = &scene.shapes[index].geometry;
-                let pmf = pmf.of(lights.of_shape(index));
+                let pmf = pmf(lights.of_shape(index));
                 let pdf = (lights.shape_pdf(index, geometry, p, drawn.direction) * pmf).lane(lane);
                 let own = drawn.pdf.lane(lane) * choice.pmf.lane(lane);
                 assert_eq!(pdf.to_bits(), own.to_bits(), "{name} by {by:?}, shape {index}: {pdf} and {own}");
@@ -106,7 +106,7 @@ fn the_pdf_of_the_sky_is_that_with_which_it_was_drawn() {
             let choice = chooser.choose(p, normal, None, [u, second]);
             let chosen = lights.chosen(choice.index);
             let drawn = lights.sample(&chosen, Measure::SolidAngle, p, normal, Vec2::new(x, y)).to;
-            let pmf = chooser.pmf(p, normal, None).of(lights.of_sky());
+            let pmf = chooser.pmf(p, normal, None, |pmf| pmf(lights.of_sky()));
             let pdf = lights.sky_pdf(p, normal, drawn.direction) * pmf;
             for lane in (0..8).filter(|&lane| choice.index.lane(lane) + 1 == lights.len() as u32) {
                 let above = normal.dot(V8::lit([0.0, 3.0, 0.0]) - p).lane(lane);
@@ -142,9 +142,9 @@ fn the_pmf_of_all_lights_sums_to_one() {
             let (by, chooser) = choosers[number as usize % choosers.len()];
             let (p, normal, [u, second, ..]) = packet(&scene, number);
             let chosen = chooser.choose(p, normal, None, [u, second]).pmf.gt(X8::lit(0.0));
-            let pmf = chooser.pmf(p, normal, None);
+            let pmf = |light| chooser.pmf(p, normal, None, |pmf| pmf(light));
             for lane in (0..8).filter(|&lane| chosen.lane(lane)) {
-                let sum: f64 = (0..lights.len() as u32).map(|light| pmf.of(light).lane_f64(lane)).sum();
+                let sum: f64 = (0..lights.len() as u32).map(|light| pmf(light).lane_f64(lane)).sum();
                 assert!(sum < 1.0 + 2e-6, "{name} by {by:?}: {sum}");
                 let is_tree = matches!(by, ChoiceBy::Tree | ChoiceBy::Kinds) || !lights.only_few_areas();
                 if !is_tree || matches!(by, ChoiceBy::Uniform | ChoiceBy::Power) {
@@ -224,8 +224,8 @@ fn lights_far_away_have_their_share_of_the_irradiance() {
         scene.delta_lights = vec![near, distant];
         let lights = Lights::unhit(&scene);
         let choosers = Choosers::new(&lights, 1.0).unwrap();
-        let pmf = choosers.by(&lights, ChoiceBy::Auto).unwrap().pmf(p, V8::lit([0.0, 1.0, 0.0]), None);
-        let shares = [0, 1].map(|light| pmf.of(light).lane_f64(3));
+        let chooser = choosers.by(&lights, ChoiceBy::Auto).unwrap();
+        let shares = chooser.pmf(p, V8::lit([0.0, 1.0, 0.0]), None, |pmf| [0, 1].map(|light| pmf(light).lane_f64(3)));
         let truth = (1.0 + far / (far + irradiance)) / 3.0;
         assert!((shares[1] - truth).abs() < 2e-3, "{shares:?}, not {truth}");
         assert!((shares[0] + shares[1] - 1.0).abs() < 1e-6, "{shares:?}");
@@ -284,14 +284,14 @@ fn directed_and_spread_lights_are_never_lost() {
         let centered = |u: X8| u * X8::lit(4.0) - X8::lit(2.0);
         let p = V8::new(centered(pairs[0].x), centered(pairs[0].y), centered(pairs[1].x));
         let normal = V8::new(centered(pairs[1].y), centered(pairs[2].x), centered(pairs[2].y)).normalize();
-        let pmf = chooser.pmf(p, normal, None);
+        let pmf = |light| chooser.pmf(p, normal, None, |pmf| pmf(light));
         for light in (0..all).filter(|light| (light + number).is_multiple_of(3)) {
             let chosen = lights.chosen(u32x8::splat(light));
             let Drawn { to: drawn, radiance, primitives } =
                 lights.sample(&chosen, Measure::SolidAngle, p, normal, pairs[3]);
             let bright = (radiance.x + radiance.y + radiance.z).gt(X8::lit(0.0));
             let lit = drawn.emits & bright & drawn.pdf.gt(X8::lit(0.0)) & drawn.direction.dot(normal).gt(X8::lit(0.0));
-            let pmf = pmf.of(light);
+            let pmf = pmf(light);
             let index = primitives.lane(0).shape().unwrap();
             let pdf = |shape: &scene::Shape| lights.shape_pdf(index, &shape.geometry, p, drawn.direction) * pmf;
             let pdf = scene.shapes.get(index).map(pdf);

@@ -70,12 +70,14 @@ impl<'a> Paths<'a> {
         let mut going = [M8::splat(false); GROUP];
         going[..count].copy_from_slice(active);
         seen[..count].fill(V8::default());
-        points.start(count);
         for depth in 0.. {
             let mut hits = [Hits::none(X8::lit(f64::INFINITY)); GROUP];
             world.bvh.closest(&tracer.camera[..count], &going[..count], &mut hits[..count], &mut tracer.scratch);
             let mut on = false;
             for p in 0..count {
+                if depth == 0 {
+                    points.start(p);
+                }
                 let here = std::mem::replace(&mut going[p], M8::splat(false));
                 if !here.any() {
                     continue;
@@ -86,7 +88,8 @@ impl<'a> Paths<'a> {
                 let (incoming, flat) = (tracer.camera[p].direction, surface.normal);
                 let passed = world.unseen_backs(&hits[p], here, &tracer.camera[p]);
                 let reflects = surface.reflects & here & !passed;
-                let (metal, smooth) = world.materials(&hits[p], reflects, incoming, &mut surface);
+                // taken apart by reference, since a metal is large
+                let (ref metal, smooth) = world.materials(&hits[p], reflects, incoming, &mut surface);
                 let mirrors = metal.mirrors() & reflects;
                 // the path ends at all but mirrors
                 let ends = reflects & !mirrors;
@@ -96,7 +99,7 @@ impl<'a> Paths<'a> {
                 place.primitives = PrimitiveIds::pick(ends, hits[p].primitives, place.primitives);
                 place.direct = if depth == 0 { ends } else { place.direct & !ends };
                 if (mirrors | passed).any() && depth < self.depth {
-                    let direction = mirrored(&surface, &metal, mirrors, incoming, &mut end.throughput);
+                    let direction = mirrored(&surface, metal, mirrors, incoming, &mut end.throughput);
                     // the mirror image of a smooth normal may be below the flat surface
                     going[p] = mirrors & (direction.dot(flat).gt(X8::lit(0.0)) | !smooth);
                     let (mut from, mut to) = (surface.point, direction);

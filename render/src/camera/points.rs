@@ -66,10 +66,11 @@ impl Points {
             lobes: [const { None }; GROUP],
         }
     }
-    /// Forgets the points of the first packets.
-    pub(crate) fn start(&mut self, count: usize) {
-        self.surfaces[..count].fill(Surface::default());
-        self.ends[..count].fill(End::start());
+    /// Forgets the points of a packet.
+    #[inline]
+    pub(crate) fn start(&mut self, packet: usize) {
+        self.surfaces[packet] = Surface::default();
+        self.ends[packet] = End::start();
     }
     /// Ends the paths of these lanes of a packet at a surface with this finish, and the normals `flat` without interpolation.
     #[inline]
@@ -79,7 +80,7 @@ impl Points {
         lanes: M8,
         surface: &Surface,
         flat: V8,
-        (metal, smooth): (Metal, M8),
+        (metal, smooth): (&Metal, M8),
     ) {
         let (own, end) = (&mut self.surfaces[packet], &mut self.ends[packet]);
         end.smooth = end.smooth | (smooth & lanes);
@@ -89,14 +90,17 @@ impl Points {
             own.normal = V8::blend(lanes, surface.normal, own.normal);
             own.albedo = V8::blend(lanes, surface.albedo, own.albedo);
             own.reflects = own.reflects | lanes;
-            end.metal = Some(end.metal.map_or(metal, |other| Metal::select(lanes, &metal, &other)));
+            match &mut end.metal {
+                Some(own) => own.put(lanes, metal),
+                none => *none = Some(*metal),
+            }
         }
     }
     /// Notes the fits of the rough surfaces of the first packets.
     pub(crate) fn note_lobes(&mut self, count: usize) {
         for p in 0..count {
             let (end, surface, place) = (&self.ends[p], &self.surfaces[p], &mut self.places[p]);
-            let lobe = end.metal.and_then(|metal| metal.lobe(surface.normal, surface.albedo, -end.direction));
+            let lobe = end.metal.as_ref().and_then(|metal| metal.lobe(surface.normal, surface.albedo, -end.direction));
             place.fitted = lobe.as_ref().map_or(M8::splat(false), |lobe| lobe.lanes & !end.smooth);
             place.unfitted = end.smooth | end.rough() & !place.fitted;
             self.lobes[p] = lobe;
@@ -113,6 +117,6 @@ impl End {
     /// Lanes of rough metals and of coats.
     #[inline]
     pub(crate) fn rough(&self) -> M8 {
-        self.metal.map_or(M8::splat(false), |metal| metal.rough())
+        self.metal.as_ref().map_or(M8::splat(false), Metal::rough)
     }
 }

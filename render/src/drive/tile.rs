@@ -252,7 +252,7 @@ impl<'a> TileRenderer<'a> {
             if let Some(know) = know.as_mut().filter(|_| outlook.some) {
                 know.know(&group, ledger, &mut known);
             }
-            sampled = rest.estimate(&group, ledger, &mut paths.tracer);
+            rest.add(&group, ledger, &mut paths.tracer, &mut sampled);
         }
         let is_plain = scene.surfaces.is_plain;
         std::array::from_fn(|p| {

@@ -112,7 +112,6 @@ impl BySurface {
         let (rays, surface) = (&tracer.shadow[packet], &group.points.surfaces[packet]);
         let (hit, missed) = (sent & hits.any(), sent & !hits.any());
         let is_weighted = self.mis.is_some() && (hit.any() || scene.sky.is_some());
-        let pmf: Option<LightPmf<'_>> = is_weighted.then(|| pmf::<GENERAL>(group, ledger, packet));
         // spheres that metals reflect are sampled by the lobe alone
         let by_lobes = GENERAL && self.mis.is_some_and(|mis| mis.by_lobes);
         let metals = group.points.lobes[packet].as_ref().filter(|_| by_lobes).map(Lobe::metals);
@@ -123,31 +122,38 @@ impl BySurface {
             pdf: X8::lit(0.0),
             sun: None,
         };
-        world.each_shape(hits, hit, rays, |index, here, shape, outward| {
-            let here = metals.filter(|_| shape.is_even_sphere()).map_or(here, |metals| here & !metals);
-            if let Some((emitted, here)) = world.emitted(hits, here, shape, outward, rays) {
-                met.radiance = V8::blend(here, emitted, met.radiance);
-                met.lit = met.lit | here;
-                let light = scene.lights.of_shape(index);
-                met.lights = pick(here, u32x8::splat(light), met.lights);
-                if let Some(pmf) = pmf.as_ref().filter(|_| here.any()) {
-                    let pdf =
-                        scene.lights.shape_pdf(index, &shape.geometry, surface.point, rays.direction) * pmf.of(light);
-                    met.pdf = select(here, pdf, met.pdf);
+        let find: &mut dyn FnMut(Option<LightPmf<'_>>) = &mut |pmf| {
+            world.each_shape(hits, hit, rays, |index, here, shape, outward| {
+                let here = metals.filter(|_| shape.is_even_sphere()).map_or(here, |metals| here & !metals);
+                if let Some((emitted, here)) = world.emitted(hits, here, shape, outward, rays) {
+                    met.radiance = V8::blend(here, emitted, met.radiance);
+                    met.lit = met.lit | here;
+                    let light = scene.lights.of_shape(index);
+                    met.lights = pick(here, u32x8::splat(light), met.lights);
+                    if let Some(pmf) = pmf.filter(|_| here.any()) {
+                        let pdf =
+                            scene.lights.shape_pdf(index, &shape.geometry, surface.point, rays.direction) * pmf(light);
+                        met.pdf = select(here, pdf, met.pdf);
+                    }
+                }
+            });
+            if let Some(sky) = scene.sky.as_ref().filter(|_| missed.any()) {
+                let (seen, shown) = sky.sampled_radiance(surface.point, rays.direction);
+                let sun = sky.sun_beside().map(|sun| sun.radiance_and_pdf(surface.point, rays.direction));
+                met.sun = sun.map(|(radiance, pdf)| (keep(radiance, missed), pdf));
+                met.radiance = V8::blend(missed, seen, met.radiance);
+                met.lit = met.lit | missed & shown;
+                if let Some(pmf) = pmf.filter(|_| (missed & shown).any()) {
+                    let pdf = scene.lights.sky_pdf(surface.point, surface.normal, rays.direction);
+                    let pdf = pdf * pmf(scene.lights.of_sky());
+                    met.pdf = select(missed, pdf, met.pdf);
                 }
             }
-        });
-        if let Some(sky) = scene.sky.as_ref().filter(|_| missed.any()) {
-            let (seen, shown) = sky.sampled_radiance(surface.point, rays.direction);
-            let sun = sky.sun_beside().map(|sun| sun.radiance_and_pdf(surface.point, rays.direction));
-            met.sun = sun.map(|(radiance, pdf)| (keep(radiance, missed), pdf));
-            met.radiance = V8::blend(missed, seen, met.radiance);
-            met.lit = met.lit | missed & shown;
-            if let Some(pmf) = pmf.as_ref().filter(|_| (missed & shown).any()) {
-                let pdf = scene.lights.sky_pdf(surface.point, surface.normal, rays.direction);
-                let pdf = pdf * pmf.of(scene.lights.of_sky());
-                met.pdf = select(missed, pdf, met.pdf);
-            }
+        };
+        if is_weighted {
+            pmf::<GENERAL>(group, ledger, packet, |pmf| find(Some(pmf)))
+        } else {
+            find(None)
         }
         met
     }

@@ -36,18 +36,16 @@ impl Sampled {
     pub(crate) const fn is_combined(&self) -> bool {
         self.mis.is_some()
     }
-    /// An unbiased estimate, for each point, of the light that it reflects, less what the ledger has counted. What a scene does not need is
+    /// Adds an unbiased estimate, for each point, of the light that it reflects, less what the ledger has counted. What a scene does not need is
     /// not compiled in.
-    pub(crate) fn estimate(&self, group: &Group<'_>, ledger: &Ledger, tracer: &mut Tracer) -> [V8; GROUP] {
-        let mut sampled = [V8::default(); GROUP];
+    pub(crate) fn add(&self, group: &Group<'_>, ledger: &Ledger, tracer: &mut Tracer, sampled: &mut [V8; GROUP]) {
         match group.scene.surfaces.is_plain {
-            true => self.add::<false>(group, ledger, tracer, &mut sampled),
-            false => self.add::<true>(group, ledger, tracer, &mut sampled),
+            true => self.add_by::<false>(group, ledger, tracer, sampled),
+            false => self.add_by::<true>(group, ledger, tracer, sampled),
         }
-        sampled
     }
     /// `GENERAL` compiles in what surfaces need that are not flat and diffuse.
-    fn add<const GENERAL: bool>(
+    fn add_by<const GENERAL: bool>(
         &self,
         group: &Group<'_>,
         ledger: &Ledger,

@@ -33,9 +33,9 @@ impl Unoccluded {
     }
     /// Traces the shadow rays of the first packets, and adds what arrives along those that are not occluded.
     #[inline(always)]
-    pub(super) fn add(mut self, count: usize, bvh: &Bvh, tracer: &mut Tracer, reflected: &mut [V8; GROUP]) {
+    pub(super) fn add(&mut self, count: usize, bvh: &Bvh, tracer: &mut Tracer, reflected: &mut [V8; GROUP]) {
         let Tracer { shadow, scratch, .. } = tracer;
-        let Self { found, lanes, limit, target } = &mut self;
+        let Self { found, lanes, limit, target } = self;
         bvh.occluded(&shadow[..count], &mut lanes[..count], &limit[..count], &target[..count], scratch);
         for p in 0..count {
             reflected[p] += keep(found[p], lanes[p]);

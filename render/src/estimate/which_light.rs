@@ -118,15 +118,20 @@ fn among(
     }
 }
 
-/// The probabilities with which a packet of surfaces that are sampled themselves chooses lights.
+/// Takes the probabilities with which a packet of surfaces that are sampled themselves chooses lights.
 #[inline(always)]
-pub(super) fn pmf<'a, const GENERAL: bool>(group: &'a Group<'_>, ledger: &Ledger, packet: usize) -> LightPmf<'a> {
+pub(super) fn pmf<const GENERAL: bool>(
+    group: &Group<'_>,
+    ledger: &Ledger,
+    packet: usize,
+    take: impl FnOnce(LightPmf<'_>),
+) {
     let Surface { point, normal, .. } = group.points.surfaces[packet];
     match group.allocated.get(packet) {
-        Some(allocated) => LightPmf::Allocated(allocated),
+        Some(allocated) => take(&|light| allocated.pmf(light)),
         None => {
             let gloss = gloss::<GENERAL>(group, ledger, packet);
-            group.chooser.pmf(point, normal, gloss.as_ref())
+            group.chooser.pmf(point, normal, gloss.as_ref(), take);
         }
     }
 }

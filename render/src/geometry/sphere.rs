@@ -15,6 +15,9 @@ use std::ops::RangeInclusive;
 /// The radii of spheres whose squares are normal numbers in single precision. Others are met in double precision.
 const SINGLE: RangeInclusive<f32> = 1.0 / (1_u64 << 40) as f32..=(1_u64 << 40) as f32;
 
+/// Rays from a sphere whose way to the height of its centre is negative by more than this part of the radius surely leave it.
+const LEAVES: f32 = 1.0 / 65_536.0;
+
 /// A whole sphere; its normal points outwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere {
@@ -154,11 +157,14 @@ impl Hittable for Sphere {
         let half = max(square, zero).sqrt();
         let near = along - half;
         let distance = select(near.gt(zero), near, along + half);
-        let met = square.ge(zero) & distance.gt(zero);
+        // to the outside of the sphere on which it begins, no ray meets it: the error of `along` is less than 2⁻²⁰ of it and the radius
+        let leaves = rays.own & along.lt(X8::splat(self.radius * -LEAVES));
+        let met = square.ge(zero) & distance.gt(zero) & !leaves;
         let size = self.radius * NEAR as f32;
         let close = |distance: X8| distance.abs().lt(X8::splat(size));
         let near_limit = rays.near_limit::<ANY>(distance, size);
-        let mut unclear = rays.lanes & square.ge(zero) & (rays.own | close(near) | close(along + half) | near_limit);
+        let mut unclear =
+            rays.lanes & square.ge(zero) & !leaves & (rays.own | close(near) | close(along + half) | near_limit);
         if !SINGLE.contains(&self.radius) {
             unclear = rays.lanes;
         }

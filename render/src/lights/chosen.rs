@@ -35,17 +35,20 @@ pub struct LightDirection {
 }
 
 impl LightDirection {
-    /// The sample in these lanes, and the other, if there is one, elsewhere.
+    /// No sample in any lane.
     #[inline(always)]
-    pub(super) fn blend(here: M8, sample: Self, other: Option<Self>) -> Self {
-        let Some(other) = other else { return sample };
-        Self {
-            direction: V8::blend(here, sample.direction, other.direction),
-            distance: select(here, sample.distance, other.distance),
-            pdf: select(here, sample.pdf, other.pdf),
-            emits: sample.emits & here | other.emits & !here,
-            delta: sample.delta & here | other.delta & !here,
-        }
+    pub(super) fn none() -> Self {
+        let (zero, none) = (X8::lit(0.0), M8::splat(false));
+        Self { direction: V8::default(), distance: zero, pdf: zero, emits: none, delta: none }
+    }
+    /// Replaces these lanes by those of another sample.
+    #[inline(always)]
+    pub(super) fn put(&mut self, here: M8, sample: &Self) {
+        self.direction = V8::blend(here, sample.direction, self.direction);
+        self.distance = select(here, sample.distance, self.distance);
+        self.pdf = select(here, sample.pdf, self.pdf);
+        self.emits = sample.emits & here | self.emits & !here;
+        self.delta = sample.delta & here | self.delta & !here;
     }
 }
 
@@ -112,7 +115,7 @@ impl Chosen {
             let light = Sphere::light(self.vectors());
             let mut drawn = LightDirection::from(light.by_reflection(p, &lobe.reflection).sample(u));
             drawn.emits = drawn.emits | self.has(TWO_SIDED);
-            *sample = LightDirection::blend(reflected, drawn, Some(*sample));
+            sample.put(reflected, &drawn);
         }
         reflected
     }

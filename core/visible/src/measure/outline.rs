@@ -97,7 +97,13 @@ impl<R: Real, const MOST: usize> Outline<R, MOST> {
     pub(super) fn start(&mut self, base: Vec3<R>, corners: &[Vec3<R>], some: R::Mask) {
         self.base = base;
         self.count = corners.len();
-        self.corners[..corners.len()].copy_from_slice(corners);
+        // most have few corners, which a general copy would take longer for
+        let to = &mut self.corners;
+        match *corners {
+            [a, b, c] if MOST > 2 => (to[0], to[1], to[2]) = (a, b, c),
+            [a, b, c, d] if MOST > 3 => (to[0], to[1], to[2], to[3]) = (a, b, c, d),
+            _ => to[..corners.len()].copy_from_slice(corners),
+        }
         self.some = some;
     }
     /// Takes another outline after a linear map.

@@ -99,8 +99,8 @@ impl<R: Real> Planes<R> {
             self.heights[self.count] = self.planes[self.count].dot(target.outline.base());
             self.count += 1;
         }
-        self.outline.start(Vec3::default(), corners, self.lanes);
         if target.base.is_none() {
+            self.outline.start(Vec3::default(), corners, self.lanes);
             self.outline.clip(front, least)?;
         }
         Ok(())

@@ -45,23 +45,19 @@ impl Metal {
     pub fn along(self, grain: V8) -> Self {
         Self { grain: Some(grain), ..self }
     }
-    /// `yes` where the mask is true, `no` elsewhere.
+    /// Replaces these lanes by those of another.
     #[inline]
-    pub fn select(mask: M8, yes: &Self, no: &Self) -> Self {
-        let grain = |metal: &Self| metal.grain.unwrap_or_default();
-        Self {
-            alpha: std::array::from_fn(|i| select(mask, yes.alpha[i], no.alpha[i])),
-            grain: (yes.grain.is_some() || no.grain.is_some()).then(|| V8::blend(mask, grain(yes), grain(no))),
-            eta: V8::blend(mask, yes.eta, no.eta),
-            k: V8::blend(mask, yes.k, no.k),
-            kind: crate::packet::pick(mask, yes.kind, no.kind),
-            through: match (&yes.through, &no.through) {
-                (None, None) => None,
-                (yes, no) => {
-                    let [yes, no] = [yes, no].map(|of| of.unwrap_or_default());
-                    Some(std::array::from_fn(|k| select(mask, yes[k], no[k])))
-                }
-            },
+    pub fn put(&mut self, lanes: M8, other: &Self) {
+        (0..2).for_each(|i| self.alpha[i] = select(lanes, other.alpha[i], self.alpha[i]));
+        if self.grain.is_some() || other.grain.is_some() {
+            self.grain = Some(V8::blend(lanes, other.grain.unwrap_or_default(), self.grain.unwrap_or_default()));
+        }
+        self.eta = V8::blend(lanes, other.eta, self.eta);
+        self.k = V8::blend(lanes, other.k, self.k);
+        self.kind = crate::packet::pick(lanes, other.kind, self.kind);
+        if self.through.is_some() || other.through.is_some() {
+            let [yes, no] = [&other.through, &self.through].map(|of| of.unwrap_or_default());
+            self.through = Some(std::array::from_fn(|k| select(lanes, yes[k], no[k])));
         }
     }
     /// Lanes of a kind.
@@ -158,10 +154,10 @@ impl Metal {
     pub fn reflectance(&self, cos: X8) -> V8 {
         let metal = V8::blend(self.is(MIRROR), self.eta, self.fresnel(cos));
         let coated = self.is(COATED_METAL);
-        let Some([coat, ..]) = self.through.filter(|_| coated.any()) else { return metal };
+        let Some([coat, ..]) = self.through.as_ref().filter(|_| coated.any()) else { return metal };
         // what goes back and forth between metal and coat is a geometric series
         let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
-        let coat = select(coated, coat, one);
+        let coat = select(coated, *coat, one);
         let cos = min(max(cos, zero), one);
         let below = max(one - (one - cos * cos) / (coat * coat), zero).sqrt();
         let above = fresnel(cos, coat, zero);
