@@ -5,9 +5,11 @@ pub mod claim;
 pub mod compare;
 pub mod files;
 #[cfg(feature = "exr")]
+pub mod filtered;
+#[cfg(feature = "exr")]
 pub mod image;
 mod pixels;
 pub mod sensor;
 pub mod sums;
 
-pub use pixels::{Accumulator, Film, Pixel, PixelSum, channels};
+pub use pixels::{Accumulator, Film, Pixel, PixelSum, Second, channels};

@@ -14,7 +14,7 @@ use crate::scene::{Corners, Details, Material, NormalMap, Scene, Shape, Varying}
 use bsdf::{MaterialRecord, Metal, PLAIN, albedo, record};
 use etendue::{Mask, Real, Vec3};
 use interpolation::{
-    along_u, barycentric, between, facing, interpolated, is_behind, lane_of, moved, outward, set_lane, turned,
+    Barycentric, along_u, between, facing, interpolated, is_behind, lane_of, moved, outward, set_lane, turned,
 };
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -82,6 +82,14 @@ struct Detail {
     materials: Vec<Material>,
     /// For each material the one that varies, if it does.
     varying: Vec<Option<Varying>>,
+}
+
+/// What hits of one triangle have in common.
+struct Hit<'a> {
+    material: usize,
+    corners: Option<&'a Corners>,
+    plane: Option<Barycentric>,
+    colors: [[f32; 3]; 3],
 }
 
 impl Surfaces {
@@ -341,26 +349,41 @@ impl Surfaces {
     fn detailed(&self, detail: &Detail, hits: &Hits, lanes: M8, direction: V8, surface: &mut Surface) -> (Metal, M8) {
         let order = self.bvh.order();
         let (mut records, mut smooth, mut grain) = ([PLAIN; 8], 0, None);
+        // most lanes hit the same triangle as the one before
+        let mut last: Option<(PrimitiveId, Hit<'_>)> = None;
         for (lane, own) in records.iter_mut().enumerate().filter(|(lane, _)| lanes.lane(*lane)) {
             let primitive = hits.primitives.lane(lane);
             if let Some(shape) = primitive.shape() {
                 *own = self.records[self.shapes[shape].material as usize];
                 continue;
             }
-            let material = self.mesh_material(primitive) as usize;
-            let triangle = order[self.bvh.slot(primitive)];
-            let corners = detail.corners.of(triangle);
+            if last.as_ref().is_none_or(|(before, _)| *before != primitive) {
+                let triangle = order[self.bvh.slot(primitive)];
+                let corners = detail.corners.of(triangle);
+                last = Some((
+                    primitive,
+                    Hit {
+                        material: self.mesh_material(primitive) as usize,
+                        corners,
+                        plane: corners.map(|_| Barycentric::new(self.bvh.corners(primitive))),
+                        colors: detail.corners.colors_of(triangle),
+                    },
+                ));
+            }
+            let Some((_, Hit { material, corners, plane, colors })) = &last else { continue };
+            let (material, corners) = (*material, *corners);
             let varying = detail.varying[material].as_ref();
-            let weights = corners.map(|_| barycentric(self.bvh.corners(primitive), lane_of(surface.point, lane)));
+            let weights = plane.as_ref().map(|plane| plane.weights(lane_of(surface.point, lane)));
             let varied = varying.map(|varying| match (corners, weights) {
                 (Some(corners), Some(weights)) => {
-                    let tint = interpolated(&detail.corners.colors_of(triangle), weights);
-                    varying.tinted(interpolated(&corners.uvs, weights), tint)
+                    varying.tinted(interpolated(&corners.uvs, weights), interpolated(colors, weights))
                 }
                 _ => varying.at([0.0; 2]),
             });
             let here = varied.unwrap_or(detail.materials[material]);
-            *own = record(&here);
+            if !matches!(here, Material::Diffuse(_)) {
+                *own = record(&here);
+            }
             if let Some(roughness) = here.roughness().filter(|roughness| !roughness.is_isotropic())
                 && let Some(corners) = corners
             {

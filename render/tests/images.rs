@@ -5,7 +5,7 @@ use etendue_render::drive::Content;
 use etendue_render::drive::parts::{self, PieceFile};
 use etendue_render::film::files::check_replaceable;
 use etendue_render::film::image::Picture;
-use etendue_render::film::{Film, Pixel};
+use etendue_render::film::{Film, Pixel, Second};
 use etendue_render::scene::area::PlaceInImage;
 use etendue_render::scene::texture::Colors;
 use etendue_render::{Identity, Sampler, Sensor, Settings, Technique, film::image};
@@ -97,7 +97,8 @@ fn pictures_are_display_windows() {
 /// A part of an image is written in its place, from where it is read again.
 #[test]
 fn parts_have_places() {
-    let pixel = |i: u32| Pixel { mean: [i as f32, 1.0, 2.0], variance: [0.5; 3], samples: i };
+    let second = |i: u32| Second { mean: [1.5, i as f32, 2.0], weight: (i % 3) as f32 };
+    let pixel = |i: u32| Pixel { mean: [i as f32, 1.0, 2.0], variance: [0.5; 3], samples: i, second: second(i) };
     let film = Film { width: 10, height: 4, pixels: (0..40).map(pixel).collect() };
     let (technique, sampler) = (Technique::Auto, Sampler::Sobol);
     let settings = Settings { width: 10, height: 4, spp: 4, technique, sampler, ..Settings::DEFAULT };

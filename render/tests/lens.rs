@@ -146,7 +146,7 @@ fn blurred(radius: f64, focus: f64) -> Picture {
         ((0..points).map(at).sum::<f64>() / points as f64) as f32
     };
     let row: Vec<_> = (0..width).map(|x| [value(x); 3]).collect();
-    Picture { width, height, radiance: row.repeat(height), variance: None }
+    Picture { width, height, radiance: row.repeat(height), variance: None, second: None }
 }
 
 /// Edges in front of, behind and in the plane of focus, with every sampler.

@@ -194,7 +194,7 @@ fn what_does_not_fit_is_refused_and_named() {
     assert_eq!(partial.gaps, [areas[0]]);
     let Merged::Image(some) = partial.merged else { panic!("not an image") };
     for (i, (some, all)) in some.pixels.iter().zip(&film.pixels).enumerate() {
-        let nothing = Pixel { mean: [0.0; 3], variance: [f32::INFINITY; 3], samples: 0 };
+        let nothing = Pixel { variance: [f32::INFINITY; 3], ..Pixel::default() };
         assert_eq!(*some, if i % 50 < 32 && i / 50 < 16 { nothing } else { *all }, "{i}");
     }
 

@@ -81,6 +81,7 @@ fn irradiance_of_a_uniform_field() {
                 let reference = Picture {
                     radiance: (0..1200).map(|i| truth(i).map(|x| x as f32)).collect(),
                     variance: None,
+                    second: None,
                     ..image.clone()
                 };
                 let p = Comparison::new(&reference, &image, 0.0).unwrap().predicted.unwrap();

@@ -40,7 +40,13 @@ pub fn decode(path: &Path, bytes: &[u8]) -> Result<Picture, FileError> {
         return decode_png(bytes, path);
     }
     if let Some(image) = pfm::decode(path, bytes) {
-        return image.map(|(width, height, radiance)| Picture { width, height, radiance, variance: None });
+        return image.map(|(width, height, radiance)| Picture {
+            width,
+            height,
+            radiance,
+            variance: None,
+            second: None,
+        });
     }
     let not_one = |error: &dyn fmt::Display| failed(path, format!("not a valid Radiance HDR image: {error}"));
     if !bytes.starts_with(b"#?") {
@@ -53,7 +59,7 @@ pub fn decode(path: &Path, bytes: &[u8]) -> Result<Picture, FileError> {
     check_size(path, [width.into(), height.into()], 1, bytes.len())?;
     let image = DynamicImage::from_decoder(decoder).map_err(|error| not_one(&error))?;
     let radiance = image.into_rgb32f().pixels().map(|p| p.0).collect();
-    Ok(Picture { width: width as usize, height: height as usize, radiance, variance: None })
+    Ok(Picture { width: width as usize, height: height as usize, radiance, variance: None, second: None })
 }
 
 /// What a file is that is no picture that can be read here, as its first bytes tell.
@@ -107,7 +113,7 @@ fn decode_png(bytes: &[u8], path: &Path) -> Result<Picture, FileError> {
     // grey, or grey and alpha, have one colour channel
     let color = |p: &[f32]| if channels < 3 { [p[0]; 3] } else { [p[0], p[1], p[2]] };
     let radiance = samples.chunks_exact(channels).map(color).collect();
-    Ok(Picture { width, height, radiance, variance: None })
+    Ok(Picture { width, height, radiance, variance: None, second: None })
 }
 
 /// Reads a texture from the bytes of a PNG, JPEG, TGA, OpenEXR or Radiance HDR file that messages call `path`. Negative values become 0;

@@ -16,6 +16,11 @@ const FREE: usize = 8;
 /// `known_lights_take_no_samples_from_others` prints 1.0 times the variance with 4, and 32 times with 8.
 const FREE_IF_ASKED: usize = 4;
 
+/// The packets of the smallest block whose samples can be allocated to so many lights, wherever they are.
+pub(super) fn packets_for(lights: usize) -> u32 {
+    if lights <= FREE { 0 } else { (2 * lights).div_ceil(8).next_power_of_two() as u32 }
+}
+
 impl TileRenderer<'_> {
     /// Whether samples can be allocated to lights in blocks of `size` samples.
     pub(super) fn allocates(&self, size: u32) -> bool {

@@ -6,7 +6,7 @@ use super::pixel_counts::PixelCounts;
 use super::pixel_statistics::Statistics;
 use super::view::Content;
 use crate::film::files::FileError;
-use crate::film::{Film, Pixel};
+use crate::film::{Film, Pixel, Second};
 use crate::scene::area::{Area, count, paste};
 use crate::settings::Settings;
 use rayon::prelude::*;
@@ -147,6 +147,7 @@ struct Average {
     /// Σn²v over their variances v.
     variance: [f64; 3],
     samples: u32,
+    second: Second,
 }
 
 impl Average {
@@ -160,6 +161,7 @@ impl Average {
             self.variance[k] += n * n * f64::from(pixel.variance[k]);
         }
         self.samples = self.samples.saturating_add(pixel.samples);
+        self.second.add(&pixel.second, n / f64::from(self.samples));
     }
     fn mean(&self) -> Pixel {
         if self.samples == 0 {
@@ -167,7 +169,7 @@ impl Average {
         }
         let n = f64::from(self.samples);
         let (mean, variance) = (self.sum.map(|x| (x / n) as f32), self.variance.map(|x| (x / (n * n)) as f32));
-        Pixel { mean, variance, samples: self.samples }
+        Pixel { mean, variance, samples: self.samples, second: self.second }
     }
 }
 

@@ -15,7 +15,7 @@ use super::view::Content;
 use crate::film::files::{FileError, failed, make_folder, replace};
 use crate::film::image::Compression;
 use crate::film::image::layer::{self, Layer, LayerFile, Numbers};
-use crate::film::{Pixel, image};
+use crate::film::{Pixel, Second, image};
 use crate::sampler::Sampler;
 use crate::scene::area;
 use crate::scene::area::{Area, PlaceInImage};
@@ -193,7 +193,18 @@ fn from_planes(identity: &Identity, kind: PieceKind, area: Area, planes: Vec<(St
             let [r, g, b] = RGB.map(|channel| found.f32(channel));
             let [u, v, w] = RGB.map(|channel| found.f32(&format!("variance.{channel}")));
             let (r, g, b, u, v, w, n) = (r?, g?, b?, u?, v?, w?, found.u32("samples.N")?);
-            let pixel = |i: usize| Pixel { mean: [r[i], g[i], b[i]], variance: [u[i], v[i], w[i]], samples: n[i] };
+            // only images whose error they tell have second sets
+            let [s, t, q] = RGB.map(|channel| found.f32(&format!("second.{channel}")));
+            let second = s.zip(t).zip(q).zip(found.f32("second.weight"));
+            let pixel = |i: usize| Pixel {
+                mean: [r[i], g[i], b[i]],
+                variance: [u[i], v[i], w[i]],
+                samples: n[i],
+                second: second.as_ref().map_or(Second::default(), |(((s, t), q), weight)| Second {
+                    mean: [s[i], t[i], q[i]],
+                    weight: weight[i],
+                }),
+            };
             Content::Pixels((0..count).map(pixel).collect())
         }
         PieceKind::Pilot(lights) => {
@@ -257,8 +268,7 @@ pub fn write(path: &Path, identity: &Identity, piece: Piece) -> Result<(), FileE
     replace(path, &bytes)
 }
 
-/// Writes an image: an EXR file with the channels R, G, B, the variance of the mean (`variance.R`, …) and the sample count (`samples.N`). If
-/// it has a place in a larger image, that image is the display window, and the place the data window. Equal images give equal bytes.
+/// Writes an image: an EXR file with its [planes](image::planes). If it has a place in a larger image, that image is the display window, and the place the data window. Equal images give equal bytes.
 ///
 /// # Errors
 /// Fails if the file cannot be written; an existing file then remains unchanged.

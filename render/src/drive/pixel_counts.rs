@@ -67,6 +67,11 @@ impl SamplePlan {
         let pilot = greatest_power(packets / 4.0).max(if packets < 4.0 { 1.0 } else { 2.0 });
         Self { sets, pilot: pilot as u32, packets, checks }
     }
+    /// The same with a pilot of so many packets, if that is more, but no more than a third of all: what follows it goes where the variance is.
+    pub(super) fn with_pilot(self, packets: u32) -> Self {
+        let fits = 3.0 * f64::from(packets) <= self.packets;
+        Self { pilot: if fits { packets.max(self.pilot) } else { self.pilot }, ..self }
+    }
 }
 
 /// How many samples each pixel of a rectangle receives after the pilot, and what the pilot found.
@@ -98,7 +103,8 @@ impl PixelCounts {
     #[must_use]
     pub fn new(settings: &Settings, area: Area, pilot: &[Statistics]) -> Self {
         assert_eq!(pilot.len(), area::count(area));
-        let (packets, weights) = count_packets(pilot, area[2] - area[0], &SamplePlan::new(settings));
+        let plan = SamplePlan::new(settings).with_pilot(pilot[0].packets);
+        let (packets, weights) = count_packets(pilot, area[2] - area[0], &plan);
         let (lights, of) = weights.unwrap_or_default();
         let squares: Vec<f32> = pilot.iter().map(|pixel| pixel.square() as f32).collect();
         let of_pixel = |(square, packets): (&f32, &u32)| f64::from(*square) * fall((*packets).into());

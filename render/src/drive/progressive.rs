@@ -375,6 +375,7 @@ fn add(mean: &mut Film, weights: &mut [f64], pass: &[Pixel], area: Area, own: f6
             a.variance[k] = ((1.0 - share).powi(2) * v + share * share * w) as f32;
         }
         a.samples = a.samples.saturating_add(b.samples);
+        a.second.add(&b.second, share);
     }
 }
 

@@ -8,7 +8,7 @@
 //! Sampling Techniques, chapters 6 and 9A). So the sum of the variances is right in the mean, but for a bias that falls with the number of
 //! pixels that are chosen in a tile.
 
-use crate::film::Pixel;
+use crate::film::{Pixel, Second};
 use crate::sampler::hash64;
 use crate::scene::area::{self, Area};
 
@@ -81,7 +81,7 @@ impl Checks {
         let [x0, y0, x1, _] = self.area;
         self.chances[((y - y0) * (x1 - x0) + (x - x0)) as usize] > 0.0
     }
-    /// Sets the variances of the pixels of the tile from what `by_spread` lets expect, and from the means of second sets. Of the whole image,
+    /// Sets the variances of the pixels of the tile from what `by_spread` lets expect, and from the means of second sets, which it stores. Of the whole image,
     /// the sum `of_all` of the former is known.
     pub(super) fn judge(&self, pixels: &mut [Pixel], by_spread: &[f64], second: &[[f64; 3]], of_all: f64) {
         let (mut count, mut expected, mut found, mut cubes) = (0.0, 0.0, [0.0; 3], 0.0);
@@ -100,6 +100,11 @@ impl Checks {
         let floor = if expected > 0.0 { FLOOR * cubes / of_all.max(expected).powi(2) } else { 0.0 };
         if all < floor {
             found = found.map(|found| if all > 0.0 { found * (floor / all) } else { floor / 3.0 });
+        }
+        for ((pixel, chance), second) in
+            pixels.iter_mut().zip(&self.chances).zip(second).filter(|((_, c), _)| **c > 0.0)
+        {
+            pixel.second = Second { mean: second.map(|x| x as f32), weight: chance.recip() as f32 };
         }
         for (pixel, by_spread) in pixels.iter_mut().zip(by_spread) {
             // where nothing is expected, the variance is taken to be the same everywhere
@@ -153,7 +158,7 @@ mod tests {
     #[test]
     fn claims_do_not_collapse() {
         let by_spread: Vec<f64> = (0..256).map(|i| if i == 70 { 5.0 } else { 1e-6 }).collect();
-        let pixel = Pixel { mean: [1.0, 2.0, 3.0], variance: [0.0; 3], samples: 8 };
+        let pixel = Pixel { mean: [1.0, 2.0, 3.0], samples: 8, ..Pixel::default() };
         for (difference, of_all, least) in
             [(0.0, 5.0, FLOOR * 5.0), (1e-3, 5.0, FLOOR * 5.0), (0.0, 50.0, FLOOR * 0.05)]
         {
@@ -181,7 +186,7 @@ mod tests {
                     let sign = if random(seed << 20 | set << 10 | i as u64) < 0.5 { 1.0 } else { -1.0 };
                     (sign * truth[i].sqrt()) as f32
                 };
-                let pixel = |i| Pixel { mean: [value(i, 1), 0.0, 2.0 * value(i, 1)], variance: [0.0; 3], samples: 8 };
+                let pixel = |i| Pixel { mean: [value(i, 1), 0.0, 2.0 * value(i, 1)], samples: 8, ..Pixel::default() };
                 let mut pixels: Vec<Pixel> = (0..256).map(pixel).collect();
                 let second: Vec<[f64; 3]> =
                     (0..256).map(|i| [value(i, 2), 0.0, 2.0 * value(i, 2)].map(f64::from)).collect();

@@ -1,5 +1,6 @@
 //! An image of a scene through a camera: its technique, its samples, and what is known of its lights.
 
+use super::corners::packets_for;
 use super::pixel_counts::{PixelCounts, SamplePlan};
 use super::pixel_statistics::Statistics;
 use super::specks::specks;
@@ -203,7 +204,11 @@ impl View<'_> {
     }
 
     fn plan(&self) -> SamplePlan {
-        SamplePlan::new(&self.settings)
+        let plan = SamplePlan::new(&self.settings);
+        let Settings { technique, choice, .. } = self.settings;
+        let sampled = self.world.scene.sampled(technique, choice).ok().filter(|_| !technique.finds_lights());
+        // after a pilot that is too small for the lights, all samples choose among them at random
+        plan.with_pilot(sampled.and_then(|(_, chooser)| chooser.few()).map_or(0, packets_for))
     }
 
     fn pilot(&self, area: Area, progress: &(dyn Fn(u64) + Sync)) -> (Vec<Statistics>, RayCount) {

@@ -188,8 +188,8 @@ mod tests {
             width: 2,
             height: 1,
             pixels: vec![
-                Pixel { mean, variance, samples: 4 },
-                Pixel { mean: [2.0; 3], variance: [0.0; 3], samples: 4 },
+                Pixel { mean, variance, samples: 4, ..Pixel::default() },
+                Pixel { mean: [2.0; 3], samples: 4, ..Pixel::default() },
             ],
         };
         let some = film([1.0, 2.0, 3.0], [0.06, 0.12, 0.06]);
@@ -225,7 +225,7 @@ mod tests {
     /// A light of a thousandth of a pixel is claimed although no sample has met it, until eight samples have.
     #[test]
     fn lights_that_no_sample_has_met_are_claimed() {
-        let dim = Pixel { mean: [1.0; 3], variance: [1e-6; 3], samples: 64 };
+        let dim = Pixel { mean: [1.0; 3], variance: [1e-6; 3], samples: 64, ..Pixel::default() };
         let film = Film { width: 10, height: 10, pixels: vec![dim; 100] };
         let specks = Specks::new(0.001, 3.0 * 500.0_f64.powi(2));
         let claim = |spp: u64| Claim::new(&film, &Foreseen { systematic: 0.0, specks }, spp).unwrap();

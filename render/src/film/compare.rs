@@ -117,7 +117,7 @@ const TOGETHER: f64 = 0.5;
 const MUCH_LESS: f64 = 0.6;
 
 /// Checks that two images can be compared.
-fn check(reference: &Picture, image: &Picture) -> Result<(), String> {
+pub(super) fn check(reference: &Picture, image: &Picture) -> Result<(), String> {
     if (reference.width, reference.height) != (image.width, image.height) {
         return Err(format!(
             "the reference is {}x{} pixels, the image {}x{}",
@@ -134,7 +134,7 @@ fn check(reference: &Picture, image: &Picture) -> Result<(), String> {
 }
 
 /// The variances of an image, if they are known for all pixels.
-fn known_variance(picture: &Picture) -> Option<&[[f32; 3]]> {
+pub(super) fn known_variance(picture: &Picture) -> Option<&[[f32; 3]]> {
     let is_known = |v: &&[[f32; 3]]| v.iter().flatten().all(|x| x.is_finite() && *x >= 0.0);
     picture.variance.as_deref().filter(is_known)
 }
@@ -342,7 +342,7 @@ mod tests {
         let radiance = (0..side * side).map(|_| [(1.0 + sign()) * 0.5_f32.sqrt() * sign(); 3]).collect();
         let tile = |i: usize| i / side / TILE * 8 + i % side / TILE;
         let variance = Some((0..side * side).map(|i| [factor(tile(i)); 3]).collect());
-        let image = Picture { width: side, height: side, radiance, variance };
+        let image = Picture { width: side, height: side, radiance, variance, second: None };
         let reference = Picture { radiance: vec![[0.0; 3]; side * side], variance: None, ..image.clone() };
         let comparison = Comparison::new(&reference, &image, error).unwrap();
         (comparison.verdict().0, comparison.predicted.unwrap())

@@ -7,7 +7,7 @@ pub use exr::prelude::Compression;
 pub use size::check_size;
 
 use super::files::{FileError, failed, replace};
-use super::pixels::{Film, Pixel};
+use super::pixels::{Film, Pixel, Second};
 use exr::block::chunk::CompressedBlock;
 use exr::meta::attribute::IntegerBounds;
 use exr::prelude::{ReadChannels, ReadLayers};
@@ -20,13 +20,21 @@ const CHANNELS: [&str; 3] = ["R", "G", "B"];
 /// However short a file is, its display window can have 2²⁴ pixels, as can one of so many bytes.
 const SHORT: usize = 1 << 10;
 
-/// The planes of an image: R, G, B, `variance.R`, `variance.G`, `variance.B` and `samples.N`.
+/// The planes of an image: R, G, B, `variance.R`, `variance.G`, `variance.B` and `samples.N`; and, if any pixel has a [second
+/// set](Second), `second.R`, `second.G`, `second.B` and `second.weight`.
 pub fn planes(pixels: &[Pixel]) -> Vec<(String, Numbers)> {
     let plane = |f: &dyn Fn(&Pixel) -> f32| Numbers::F32(pixels.iter().map(f).collect());
     let mut planes = Vec::new();
+    let judged = pixels.iter().any(|p| p.second.weight != 0.0);
     for (k, name) in CHANNELS.into_iter().enumerate() {
         planes.push((name.to_owned(), plane(&|p| p.mean[k])));
         planes.push((format!("variance.{name}"), plane(&|p| p.variance[k])));
+        if judged {
+            planes.push((format!("second.{name}"), plane(&|p| p.second.mean[k])));
+        }
+    }
+    if judged {
+        planes.push(("second.weight".to_owned(), plane(&|p| p.second.weight)));
     }
     planes.push(("samples.N".to_owned(), Numbers::U32(pixels.iter().map(|p| p.samples).collect())));
     planes
@@ -81,6 +89,8 @@ pub struct Picture {
     pub radiance: Vec<[f32; 3]>,
     /// Variance of the mean of each pixel, if the file has it.
     pub variance: Option<Vec<[f32; 3]>>,
+    /// The second set of each pixel, if the file has any.
+    pub second: Option<Vec<Second>>,
 }
 
 impl From<&Film> for Picture {
@@ -90,11 +100,12 @@ impl From<&Film> for Picture {
             height: film.height as usize,
             radiance: film.pixels.iter().map(|p| p.mean).collect(),
             variance: Some(film.pixels.iter().map(|p| p.variance).collect()),
+            second: Some(film.pixels.iter().map(|p| p.second).collect()),
         }
     }
 }
 
-/// Reads the channels R, G, B, or a single one, as grey, and, if present, `variance.R`, `variance.G`, `variance.B` of the data window.
+/// Reads the channels R, G, B, or a single one, as grey, and, if present, those of the variance and of second sets, of the data window.
 ///
 /// # Errors
 /// Fails if the file is missing or damaged, has neither R, G, B nor Y nor a single channel, or has more than 2²⁸ pixels.
@@ -149,7 +160,7 @@ fn displayed(
             }
         }
     }
-    Ok(Picture { width, height, radiance, variance: None })
+    Ok(Picture { width, height, radiance, variance: None, second: None })
 }
 
 /// The data window of an EXR file, its first pixel, and the display window.
@@ -219,6 +230,9 @@ fn decode_windows(bytes: &[u8], path: &Path) -> Result<(Picture, [i64; 2], Integ
         failed(path, format!("needs the channels R, G and B, or a single one: {why}"))
     })?;
     let start = [layer.attributes.layer_position.0, layer.attributes.layer_position.1].map(i64::from);
-    let data = Picture { width, height, radiance, variance: three("variance.") };
+    let second = three("second.").zip(channel("second.weight"));
+    let second =
+        second.map(|(means, w)| means.into_iter().zip(w).map(|(mean, weight)| Second { mean, weight }).collect());
+    let data = Picture { width, height, radiance, variance: three("variance."), second };
     Ok((data, start, image.attributes.display_window))
 }

@@ -13,6 +13,32 @@ pub struct Pixel {
     pub variance: [f32; 3],
     /// Number of samples.
     pub samples: u32,
+    /// What samples tell that are no part of the mean.
+    pub second: Second,
+}
+
+/// The second set of a pixel, which only some pixels have: as many samples again, which are no part of the image, but judge it, and any image
+/// made of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Second {
+    /// Mean of its samples, in the unit of [`Pixel::mean`]. Whatever the mean of the pixel, its expectation is the light.
+    pub mean: [f32; 3],
+    /// The inverse of the chance with which the pixel was chosen to have one; 0 if it has none.
+    pub weight: f32,
+}
+
+impl Second {
+    /// What is known of the mean of images if one is added to others, with this share: a sum over the pixels by their weights has the same
+    /// expectation as of each image.
+    pub fn add(&mut self, other: &Self, share: f64) {
+        let [own, added] = [f64::from(self.weight) * (1.0 - share), f64::from(other.weight) * share];
+        let weight = own + added;
+        if added > 0.0 {
+            let both = |k: usize| own * f64::from(self.mean[k]) + added * f64::from(other.mean[k]);
+            self.mean = std::array::from_fn(|k| (both(k) / weight) as f32);
+        }
+        self.weight = weight as f32;
+    }
 }
 
 /// A rendered image.
@@ -35,6 +61,7 @@ impl Film {
             mean: p.mean.map(|x| times(x, factor)),
             variance: p.variance.map(|x| times(x, factor * factor)),
             samples: p.samples,
+            second: Second { mean: p.second.mean.map(|x| times(x, factor)), ..p.second },
         };
         Self { pixels: self.pixels.iter().map(scaled).collect(), ..*self }
     }
@@ -94,7 +121,8 @@ impl Pixel {
         let scale = (n * others).recip();
         // nothing is known of the error of a single set
         let variance = |squares: f64| if others > 0.0 { (squares * scale) as f32 } else { f32::INFINITY };
-        Self { mean: mean.map(|x| x as f32), variance: squares.map(variance), samples }
+        let mean = mean.map(|x| x as f32);
+        Self { mean, variance: squares.map(variance), samples, second: Second::default() }
     }
 }
 

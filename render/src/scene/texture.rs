@@ -293,6 +293,9 @@ pub struct Mask {
 #[inline]
 fn wrapped(i: i64, count: usize, wrap: Wrap) -> Option<usize> {
     let n = count as i64;
+    if (0..n).contains(&i) {
+        return Some(i as usize);
+    }
     let inside = match wrap {
         Wrap::Repeat => i.rem_euclid(n),
         Wrap::Mirror => {
@@ -300,12 +303,7 @@ fn wrapped(i: i64, count: usize, wrap: Wrap) -> Option<usize> {
             i.min(2 * n - 1 - i)
         }
         Wrap::Clamp => i.clamp(0, n - 1),
-        Wrap::Black => {
-            if !(0..n).contains(&i) {
-                return None;
-            }
-            i
-        }
+        Wrap::Black => return None,
     };
     Some(inside as usize)
 }
@@ -345,15 +343,19 @@ impl Picture {
         let [s, t] = self.mapping.at(uv);
         let Texels { width, height, .. } = *self.texels;
         let ((x, fx), (y, fy)) = (self.beside(s, width), self.beside(t, height));
-        let texel = |x: i64, y: i64| self.index(x, y).map_or([0.0; 3], &value);
+        let column = |x: i64| wrapped(x, width, self.wrap[0]);
+        let row = |y: i64| wrapped(y, height, self.wrap[1]).map(|y| y * width);
+        let texel = |x: Option<usize>, y: Option<usize>| x.zip(y).map_or([0.0; 3], |(x, y)| value(y + x));
+        let (left, top) = (column(x), row(y));
         if !self.bilinear {
-            return texel(x, y);
+            return texel(left, top);
         }
-        let across = |y: i64| {
-            let (a, b) = (texel(x, y), texel(x + 1, y));
+        let right = column(x + 1);
+        let across = |y: Option<usize>| {
+            let (a, b) = (texel(left, y), texel(right, y));
             std::array::from_fn::<f32, 3, _>(|k| a[k] + (b[k] - a[k]) * fx)
         };
-        let (a, b) = (across(y), across(y + 1));
+        let (a, b) = (across(top), across(row(y + 1)));
         std::array::from_fn(|k| a[k] + (b[k] - a[k]) * fy)
     }
 }

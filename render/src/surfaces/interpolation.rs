@@ -18,17 +18,33 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// The weights of a triangle's corners at the point of its plane that is nearest to `p`, none of them negative.
-pub(super) fn barycentric(corners: [f32; 9], p: [f32; 3]) -> [f32; 3] {
-    let corner = |i: usize| std::array::from_fn::<f64, 3, _>(|k| corners[3 * i + k].into());
-    let from_first = |q: [f64; 3]| std::array::from_fn::<f64, 3, _>(|k| q[k] - corner(0)[k]);
-    let (u, v, w) = (from_first(corner(1)), from_first(corner(2)), from_first(p.map(f64::from)));
-    let (uu, uv, vv, wu, wv) = (dot(u, u), dot(u, v), dot(v, v), dot(w, u), dot(w, v));
-    let inverse = 1.0 / (uu * vv - uv * uv);
-    let [s, t] = [(vv * wu - uv * wv) * inverse, (uu * wv - uv * wu) * inverse];
-    // the determinant of a sliver may round to 0
-    let [s, t] = [s, t].map(|x| if x > 0.0 { x.min(1.0) } else { 0.0 });
-    [(1.0 - s - t).max(0.0) as f32, s as f32, t as f32]
+/// A triangle whose points have barycentric coordinates: what does not depend on the point is computed once.
+pub(super) struct Barycentric {
+    first: [f64; 3],
+    edges: [[f64; 3]; 2],
+    /// Products of the edges: u · u, u · v, v · v, and the inverse of their determinant.
+    products: [f64; 4],
+}
+
+impl Barycentric {
+    pub(super) fn new(corners: [f32; 9]) -> Self {
+        let corner = |i: usize| std::array::from_fn::<f64, 3, _>(|k| corners[3 * i + k].into());
+        let first = corner(0);
+        let edges = [1, 2].map(|i| std::array::from_fn(|k| corner(i)[k] - first[k]));
+        let [u, v] = edges;
+        let (uu, uv, vv) = (dot(u, u), dot(u, v), dot(v, v));
+        Self { first, edges, products: [uu, uv, vv, 1.0 / (uu * vv - uv * uv)] }
+    }
+    /// The weights of the corners at the point of the plane that is nearest to `p`, none of them negative.
+    pub(super) fn weights(&self, p: [f32; 3]) -> [f32; 3] {
+        let w = std::array::from_fn(|k| f64::from(p[k]) - self.first[k]);
+        let [wu, wv] = self.edges.map(|edge| dot(w, edge));
+        let [uu, uv, vv, inverse] = self.products;
+        let [s, t] = [(vv * wu - uv * wv) * inverse, (uu * wv - uv * wu) * inverse];
+        // the determinant of a sliver may round to 0
+        let [s, t] = [s, t].map(|x| if x > 0.0 { x.min(1.0) } else { 0.0 });
+        [(1.0 - s - t).max(0.0) as f32, s as f32, t as f32]
+    }
 }
 pub(super) fn interpolated<const N: usize>(of: &[[f32; N]; 3], weights: [f32; 3]) -> [f32; N] {
     std::array::from_fn(|k| of[0][k] * weights[0] + of[1][k] * weights[1] + of[2][k] * weights[2])

@@ -329,6 +329,43 @@ fn compare_warns_and_refuses() {
     assert!(error.contains("few.png"), "{error}");
 }
 
+/// Second sets are in the file of an image, of one or of several passes or merged, and judge what any program made of it.
+#[test]
+fn filtered_images_are_judged() {
+    let folder = Folder::new();
+    let render = |name: &str, options: &[&str]| {
+        folder.succeed(&[&["render", "quads", "-o", name, "--size", "64x64"], options].concat());
+    };
+    render("a.exr", &["--spp", "64"]);
+    render("b.exr", &["--spp", "64", "--seed", "1"]);
+    render("passes.exr", &["--error", "0.2%"]);
+    render("none.exr", &["--spp", "64", "--sampler", "sobol"]);
+    render("many.exr", &["--spp", "2048", "--seed", "9"]);
+    render("few.exr", &["--spp", "2", "--seed", "3"]);
+    folder.succeed(&["merge", "a.exr", "b.exr", "-o", "both.exr"]);
+    let claim = |image: &str, filtered: &str| json(&folder.succeed(&["compare", image, filtered, "--claim", "--json"]));
+    for image in ["a.exr", "both.exr", "passes.exr"] {
+        let own = claim(image, image);
+        assert_eq!((&own["difference"]["mse"], &own["better"]), (&0.0.into(), &Value::Null), "{own}");
+        assert!(own["pixels"].as_u64().unwrap() >= 300, "{own}");
+        assert_eq!(own["image"]["mse"], own["filtered"]["mse"]);
+        // another image of many or of few samples is what a filter would be that is good or bad
+        let [good, bad] = ["many.exr", "few.exr"].map(|filtered| claim(image, filtered));
+        assert_eq!([&good["better"], &bad["better"]], ["filtered", "image"].map(|b| b), "{good} {bad}");
+        let truth = json(&folder.succeed(&["compare", "many.exr", "few.exr", "--json"]))["mse"].as_f64().unwrap();
+        let told = bad["filtered"]["mse"].as_f64().unwrap();
+        assert!((told / truth - 1.0).abs() < 0.2, "{image}: {told} {truth}");
+    }
+    let text = folder.succeed(&["compare", "a.exr", "many.exr", "--claim"]);
+    assert!(
+        text.contains("better             the filtered image: ") && text.contains("filtered image     mse "),
+        "{text}"
+    );
+    let error = folder.fail(&["compare", "none.exr", "a.exr", "--claim"]);
+    assert!(error.contains("none.exr and a.exr: the rendered image has no second sets"), "{error}");
+    folder.fail(&["compare", "a.exr", "b.exr", "--claim", "--reference-error", "1"]);
+}
+
 /// The left half is the other image, the right half is this one, and a white line is between them.
 #[test]
 fn another_technique_is_beside_the_image() {

@@ -131,7 +131,7 @@ impl Reference {
                 })
             })
             .collect();
-        let picture = Picture { width: w, height: h, radiance, variance: None };
+        let picture = Picture { width: w, height: h, radiance, variance: None, second: None };
         let about = format!("{}, averaged over {factor}×{factor} pixels", self.about);
         Ok(Self { known_to: self.known_to, ..Self::new(picture, self.error / count, about) })
     }

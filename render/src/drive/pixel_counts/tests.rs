@@ -1,5 +1,6 @@
 //! Numbers of samples, weights of lights and variances, by definition.
 
+use super::super::corners::packets_for;
 use super::*;
 use crate::sampler::Sampler;
 use crate::technique::Technique;
@@ -47,6 +48,28 @@ fn the_pilot_is_a_quarter_in_a_power_of_two() {
     {
         let plan = SamplePlan::new(&settings([8, 8], spp, sets));
         assert_eq!((plan.pilot, plan.packets), (pilot, packets), "{spp} samples in {sets} sets");
+    }
+}
+
+/// A pilot that lights need is larger, if that leaves two thirds of the samples.
+#[test]
+fn a_pilot_allocates_to_its_lights() {
+    let pilot =
+        |spp: u32, lights: usize| SamplePlan::new(&settings([256, 256], spp, 0)).with_pilot(packets_for(lights)).pilot;
+    for (spp, lights, packets) in [
+        (64, 1, 2),
+        (64, 9, 2),
+        (97, 9, 2),
+        (98, 9, 4),
+        (128, 8, 2),
+        (128, 14, 4),
+        (128, 17, 2),
+        (196, 17, 8),
+        (256, 14, 4),
+        (256, 32, 8),
+        (1024, 32, 16),
+    ] {
+        assert_eq!(pilot(spp, lights), packets, "{spp} samples, {lights} lights");
     }
 }
 fn settings([width, height]: [u32; 2], spp: u32, sets: u32) -> Settings {

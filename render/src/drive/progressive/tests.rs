@@ -10,7 +10,7 @@ fn passes_are_averaged_by_their_weights() {
     let film = |mean: f32, variance: f32, samples| Film {
         width: 1,
         height: 1,
-        pixels: vec![Pixel { mean: [mean; 3], variance: [variance; 3], samples }],
+        pixels: vec![Pixel { mean: [mean; 3], variance: [variance; 3], samples, ..Pixel::default() }],
     };
     let (mut mean, mut weights) = (film(1.0, 8.0, 4), vec![1.0]);
     add(&mut mean, &mut weights, &film(2.0, 4.0, 8).pixels, [0, 0, 1, 1], 3.0);
