@@ -62,8 +62,6 @@ const FIRST: u32 = 16;
 const GROWTH: u32 = 8;
 /// Unless the time ends within this many times such a pass.
 const STRETCH: f64 = 2.5;
-/// The least samples of a pass that an error still needs, relative to the largest so far.
-const LEAST: f64 = 0.5;
 /// A pass of fewer samples than this fraction of the largest so far is not worth its time: it has less than 2 % of the weight.
 const WORTH: f64 = 1.0 / 16.0;
 /// The greatest number of passes after which an error is not known that seems to be reached, and stays unknown.
@@ -328,7 +326,7 @@ fn decide(
     let largest = mean.passes.iter().map(|p| p.spp).max()?;
     let last = mean.passes.last()?;
     let most = f64::from(largest.saturating_mul(GROWTH).max(full));
-    let mut next = most;
+    let (mut next, mut wanted) = (most, f64::INFINITY);
     if let Some(target) = goal.error {
         let claim = mean.error?;
         let excess = claim.excess(target);
@@ -344,14 +342,15 @@ fn decide(
         }
         // the squared random error is c / Σ n^power; where it is uncertain, passes like the largest tell it
         let missing = weight * (excess - 1.0).max(0.0);
-        let least = f64::from(largest) * if is_uncertain { 1.0 } else { LEAST };
-        let needed = at_least(counts, missing.powf(power.recip()).max(least));
-        next = next.min(needed.map_or(f64::INFINITY, f64::from));
+        let least = if is_uncertain { largest } else { last.spp };
+        let needed = at_least(counts, missing.powf(power.recip()).max(f64::from(least)));
+        wanted = needed.map_or(wanted, f64::from);
+        next = next.min(wanted);
     }
     if let Some(time) = goal.seconds {
         let left = (time - seconds) * SPARE * f64::from(last.spp) / last.seconds;
         // what would be left after the greatest pass is taken in the same, unless it is much
-        next = if next >= most && left <= STRETCH * most { left } else { next.min(left) };
+        next = if next >= most && left <= STRETCH * most { left.min(wanted) } else { next.min(left) };
         if next < f64::from(largest) * WORTH {
             return None;
         }

@@ -134,14 +134,14 @@ fn the_next_pass_fits_the_goal() {
     assert_eq!(next(None, Some(0.02)), None);
     // half of the error: three times the weight, 2.08 times the samples
     assert_eq!(next(None, Some(0.01)), Some(256));
-    assert_eq!(next(None, Some(0.019)), Some(32));
+    assert_eq!(next(None, Some(0.019)), Some(64));
     assert_eq!(next(None, Some(1e-5)), Some(512));
     // nine seconds are left, but a pass has at most eight times the samples
     assert_eq!(next(Some(10.0), None), Some(512));
     assert_eq!(next(Some(9.0), None), Some(256));
     assert_eq!(next(Some(1.5), None), Some(16));
     assert_eq!(next(Some(1.05), None), None);
-    assert_eq!(next(Some(10.0), Some(0.019)), Some(32));
+    assert_eq!(next(Some(10.0), Some(0.019)), Some(64));
     assert_eq!(next(Some(1.6), Some(1e-5)), Some(32));
     // of the error, samples lower the random part alone: by half, as above, and never to the other
     let error = Some(Claim { random: 0.02, systematic: 0.01, pixels: 100.0, ..Claim::default() });
