@@ -7,15 +7,14 @@
 //! difference of their images is the sum of their variances. What is taken instead of it must be better whichever tile is left out.
 
 use super::pixel_counts::POWER;
-use super::view::{Content, Samples, View};
 use crate::bvh::RayCount;
 use crate::choose::ChoiceBy;
-use crate::sampler::{Sampler, hash64};
+use crate::film::Pixel;
+use crate::sampler::hash64;
 use crate::scene::area::{self, Area, TILE};
 use crate::settings::{Settings, tiles};
 use crate::technique::Technique;
 use libm::pow;
-use rayon::prelude::*;
 
 /// How lights are sampled and chosen.
 pub type Way = (Technique, ChoiceBy);
@@ -43,11 +42,11 @@ const TILES: [usize; 2] = [6, 16];
 const MARGIN: f64 = 1.1;
 /// A way misses light if its images differ from those of the rule as if they had more than so many times their own variance.
 const MISSED: f64 = 2.0;
-/// Seeds of a trial, which no image uses by chance. Images of other seeds take the same.
-const SEED: u64 = 0x7472_6961_6c00_0000;
+/// The seeds of both images of a tile, which no other image uses by chance: images of all seeds take the same.
+pub(super) const SEEDS: [u64; 2] = [hash64(0x7472_6961_6c00_0000), hash64(0x7472_6961_6c00_0001)];
 
 /// What one way made of a tile.
-struct Tried {
+pub(super) struct Tried {
     /// Means of both images.
     means: Vec<[f32; 3]>,
     /// Half the sum of the squared differences of both images, in each block of 4 × 4 pixels: the variance of each.
@@ -61,15 +60,15 @@ const BLOCK: usize = 4;
 const BLOCKS: usize = (TILE as usize / BLOCK).pow(2);
 
 /// The tiles of a trial, and the samples per pixel of each of its images.
-struct Plan {
-    tiles: Vec<Area>,
-    spp: u32,
+pub(super) struct Plan {
+    pub(super) tiles: Vec<Area>,
+    pub(super) spp: u32,
     part: f64,
 }
 
 impl Plan {
     /// The trial of so many ways; `None` if it would take too large a part of the image.
-    fn new(settings: &Settings, ways: usize) -> Option<Self> {
+    pub(super) fn new(settings: &Settings, ways: usize) -> Option<Self> {
         let [across, down] = [settings.width, settings.height].map(|side| side.div_ceil(Settings::TILE));
         let all = f64::from(across) * f64::from(down);
         // samples per pixel over all tiles, for each image of each way
@@ -101,58 +100,35 @@ impl Plan {
     }
 }
 
-impl View<'_> {
-    /// The view by what `auto` takes for it, and the trial that found it.
-    pub(super) fn decide(&self) -> (Way, Option<Trial>) {
-        let ways = self.ways();
-        let none = (ways[0], None);
-        let Some(plan) = (if ways.len() > 1 { Plan::new(&self.settings, ways.len()) } else { None }) else {
-            return none;
-        };
-        let pairs: Vec<(Way, Area)> =
-            ways.iter().flat_map(|&way| plan.tiles.iter().map(move |&tile| (way, tile))).collect();
-        let tried: Vec<Tried> = pairs.into_par_iter().map(|(way, tile)| self.try_tile(way, tile, plan.spp)).collect();
-        let by_way: Vec<&[Tried]> = tried.chunks(plan.tiles.len()).collect();
-        let is_shared = self.settings.sampler == Sampler::Adaptive;
-        let all = |way: usize, without: Option<usize>| {
-            let of =
-                |way: usize| by_way[way].iter().enumerate().filter(move |(i, _)| Some(*i) != without).map(|(_, t)| t);
-            variance(of(way), (way > 0).then(|| of(0)), is_shared) * of(way).map(|tile| tile.cost).sum::<f64>()
-        };
-        let scores: Vec<f64> = (0..ways.len()).map(|way| all(way, None)).collect();
-        let holds = |&way: &usize| {
-            MARGIN * scores[way] < scores[0] && (0..plan.tiles.len()).all(|i| all(way, Some(i)) < all(0, Some(i)))
-        };
-        let best = (1..ways.len()).filter(holds).min_by(|a, b| scores[*a].total_cmp(&scores[*b])).unwrap_or(0);
-        let next = (0..ways.len()).filter(|&way| way != best).min_by(|a, b| scores[*a].total_cmp(&scores[*b]));
-        let Some(next) = next.filter(|&next| scores[best] > 0.0 && scores[next] > 0.0) else { return none };
-        let trial =
-            Trial { over: ways[next], times: scores[next] / scores[best], tiles: plan.tiles.len(), part: plan.part };
-        (ways[best], Some(trial))
-    }
+/// The best of these ways by what each made of the tiles, way by way, and the trial that tells; the first unless another is certainly better. If
+/// pixels share samples, these go where variance is.
+pub(super) fn best(ways: &[Way], plan: &Plan, tried: &[Tried], is_shared: bool) -> (Way, Option<Trial>) {
+    let by_way: Vec<&[Tried]> = tried.chunks(plan.tiles.len()).collect();
+    let all = |way: usize, without: Option<usize>| {
+        let of = |way: usize| by_way[way].iter().enumerate().filter(move |(i, _)| Some(*i) != without).map(|(_, t)| t);
+        variance(of(way), (way > 0).then(|| of(0)), is_shared) * of(way).map(|tile| tile.cost).sum::<f64>()
+    };
+    let scores: Vec<f64> = (0..ways.len()).map(|way| all(way, None)).collect();
+    let holds = |&way: &usize| {
+        MARGIN * scores[way] < scores[0] && (0..plan.tiles.len()).all(|i| all(way, Some(i)) < all(0, Some(i)))
+    };
+    let best = (1..ways.len()).filter(holds).min_by(|a, b| scores[*a].total_cmp(&scores[*b])).unwrap_or(0);
+    let next = (0..ways.len()).filter(|&way| way != best).min_by(|a, b| scores[*a].total_cmp(&scores[*b]));
+    let Some(next) = next.filter(|&next| scores[best] > 0.0 && scores[next] > 0.0) else { return (ways[0], None) };
+    let (times, tiles) = (scores[next] / scores[best], plan.tiles.len());
+    (ways[best], Some(Trial { over: ways[next], times, tiles, part: plan.part }))
+}
 
-    /// Renders a tile twice in one way.
-    fn try_tile(&self, way: Way, tile: Area, spp: u32) -> Tried {
-        let of = self.settings.spp;
-        let render = |turn: u64| {
-            let seed = hash64(SEED + turn);
-            let view = self.by(way, Settings { spp, seed, ..self.settings });
-            let (content, count) = view.render(tile, Samples::All, &|_| ());
-            let Content::Pixels(pixels) = content else { unreachable!("all samples make finished pixels") };
-            (pixels, count)
-        };
-        let ((first, count), (second, _)) = (render(0), render(1));
-        let pairs = || first.iter().zip(&second);
+impl Tried {
+    /// From two images of a tile.
+    pub(super) fn new(tile: Area, [first, second]: [&[Pixel]; 2], cost: f64) -> Self {
+        let pairs = || first.iter().zip(second);
         let mut own = [0.0; BLOCKS];
         for ((a, b), [x, y]) in pairs().zip(area::pixels(tile)) {
             let [column, row] = [x - tile[0], y - tile[1]].map(|at| at as usize / BLOCK);
             own[row * TILE as usize / BLOCK + column] += 0.5 * square(&a.mean, &b.mean);
         }
-        Tried {
-            means: pairs().map(|(a, b)| [0, 1, 2].map(|k| 0.5 * (a.mean[k] + b.mean[k]))).collect(),
-            own,
-            cost: cost(way, self.has_few(), &count, f64::from(of) / f64::from(spp)),
-        }
+        Self { means: pairs().map(|(a, b)| [0, 1, 2].map(|k| 0.5 * (a.mean[k] + b.mean[k]))).collect(), own, cost }
     }
 }
 
@@ -211,7 +187,7 @@ fn of_sample((technique, choice): Way, is_few: bool) -> f64 {
 }
 
 /// The cost of what was counted, with `times` as many samples but the same proofs.
-fn cost(way: Way, is_few: bool, count: &RayCount, times: f64) -> f64 {
+pub(super) fn cost(way: Way, is_few: bool, count: &RayCount, times: f64) -> f64 {
     let RayCount { camera, mirror, shadow, corner, proofs, forms } = count;
     let [camera, mirror, shadow, corner, proofs, forms] =
         [camera, mirror, shadow, corner, proofs, forms].map(|n| *n as f64);
@@ -224,6 +200,7 @@ fn cost(way: Way, is_few: bool, count: &RayCount, times: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sampler::Sampler;
 
     /// A trial takes at most its part of the samples, on different tiles in all quarters of the image; small images take none.
     #[test]

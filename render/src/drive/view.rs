@@ -1,6 +1,6 @@
 //! An image of a scene through a camera: its technique, its samples, and what is known of its lights.
 
-use super::auto::{Trial, Way};
+use super::auto::{Plan, SEEDS, Trial, Tried, Way, best, cost};
 use super::pixel_counts::{PixelCounts, SamplePlan};
 use super::pixel_statistics::Statistics;
 use super::specks::specks;
@@ -54,7 +54,7 @@ pub enum Content {
 pub struct View<'a> {
     world: &'a World,
     camera: Camera,
-    pub(super) settings: Settings,
+    settings: Settings,
     /// Samples per pixel of the image that decide what is worth knowing: a trial takes fewer.
     worth: u32,
     trial: Option<Trial>,
@@ -104,8 +104,33 @@ impl<'a> View<'a> {
 }
 
 impl View<'_> {
+    /// What `auto` takes, and the trial that found it; without one, the rule.
+    fn decide(&self) -> (Way, Option<Trial>) {
+        let ways = self.ways();
+        let Some(plan) = (if ways.len() > 1 { Plan::new(&self.settings, ways.len()) } else { None }) else {
+            return (ways[0], None);
+        };
+        let pairs = ways.iter().flat_map(|&way| plan.tiles.iter().map(move |&tile| (way, tile)));
+        let pairs: Vec<(Way, Area)> = pairs.collect();
+        let tried = pairs.into_par_iter().map(|(way, tile)| self.try_tile(way, tile, plan.spp));
+        best(&ways, &plan, &tried.collect::<Vec<_>>(), self.settings.sampler == Sampler::Adaptive)
+    }
+
+    /// Renders a tile twice in one way, with so many samples per pixel.
+    fn try_tile(&self, way: Way, tile: Area, spp: u32) -> Tried {
+        let render = |seed: u64| {
+            let view = self.by(way, Settings { spp, seed, ..self.settings });
+            let (content, count) = view.render(tile, Samples::All, &|_| ());
+            let Content::Pixels(pixels) = content else { unreachable!("all samples make finished pixels") };
+            (pixels, count)
+        };
+        let [(first, count), (second, _)] = SEEDS.map(render);
+        let times = f64::from(self.settings.spp) / f64::from(spp);
+        Tried::new(tile, [&first, &second], cost(way, self.has_few(), &count, times))
+    }
+
     /// The same by another way, with other settings of which the image is worth knowing the same.
-    pub(super) fn by(&self, (technique, choice): Way, settings: Settings) -> Self {
+    fn by(&self, (technique, choice): Way, settings: Settings) -> Self {
         Self { settings: Settings { technique, choice, ..settings }, ..*self }
     }
 
@@ -133,7 +158,7 @@ impl View<'_> {
     /// Through a lens most of the error is that of the image's edges: closed forms then take time that they do not save. (By `etendue render
     /// SCENE --spp 64 --size 256x256 --threads 1`, `analytic` takes twice as long on `defocus`.) Of lights with pictures, parallelograms have
     /// one.
-    pub(super) fn ways(&self) -> Vec<Way> {
+    fn ways(&self) -> Vec<Way> {
         let (scene, choice) = (&self.world.scene, self.settings.choice);
         let is_rough = scene.surfaces.has_rough();
         let sampled = if is_rough { Technique::MisLobe } else { Technique::SolidAngle };
@@ -160,7 +185,7 @@ impl View<'_> {
     }
 
     /// Whether samples can be allocated to a few lights.
-    pub(super) fn has_few(&self) -> bool {
+    fn has_few(&self) -> bool {
         let lights = &self.world.scene.lights;
         lights.only_few_areas() && lights.len() > 1
     }
