@@ -62,7 +62,7 @@ impl Measured {
     }
     /// What is known beside the seconds.
     fn more(&self) -> Value {
-        let RayCount { camera, shadow, mirror, corner } = self.rays;
+        let RayCount { camera, shadow, mirror, corner, .. } = self.rays;
         json!({
             "processor_seconds": self.processor,
             "samples": SIDE * SIDE * SPP,

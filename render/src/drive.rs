@@ -17,6 +17,7 @@
 //!
 //! An image of a given error or time repeats this in passes, each of up to eight times as many samples ([`progressive`]).
 
+mod auto;
 mod corners;
 #[cfg(feature = "exr")]
 pub mod identity;
@@ -37,6 +38,7 @@ mod tile;
 mod view;
 mod world;
 
+pub use auto::{Trial, Way};
 pub use light_weights::APART;
 pub use pixel_counts::PixelCounts;
 pub use pixel_statistics::Statistics;

@@ -27,7 +27,7 @@ named! {
         MisLobe = "mis-lobe",
         /// Exact where geometry tells what occludes a light, and nearly so on rough surfaces; the rest by solid angle, or as mis-lobe
         Analytic = "analytic",
-        /// Choose for me: analytic for at most 32 area lights and a pinhole camera; otherwise mis-lobe or solid-angle
+        /// Choose for me: what a trial finds best, or in small images analytic for at most 32 area lights and a pinhole camera, else mis-lobe or solid-angle
         Auto = "auto",
     }
 }

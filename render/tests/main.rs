@@ -4,6 +4,7 @@
 mod analytic;
 mod approximations;
 mod attack;
+mod auto;
 mod bodies;
 mod certificates;
 mod choice;
@@ -34,6 +35,7 @@ mod random;
 mod ray_oracle;
 mod rays;
 mod references;
+mod regret;
 mod sampler;
 mod samples;
 mod sensor;

@@ -2,6 +2,7 @@
 
 mod beside;
 mod compare;
+mod hints;
 mod image;
 mod interrupt;
 mod list;

@@ -1,13 +1,17 @@
 //! The files that `render` writes: their names, the checks before rendering, and their contents.
 
 use crate::interrupt::Interrupt;
+use etendue_render::drive::parts::PieceFile;
 use etendue_render::film::Film;
 use etendue_render::film::claim::Claim;
 use etendue_render::scene::{Input, Scene};
 use etendue_render::{Identity, drive::parts, film::files, film::image};
 use std::ffi::OsStr;
+use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use std::time::SystemTime;
 
 /// The name of a file that is called after the scene.
 pub(crate) fn named(stem: &OsStr, end: &str) -> PathBuf {
@@ -25,20 +29,59 @@ pub(crate) struct Output {
     pub(crate) png: PathBuf,
     /// What the PNG is multiplied by.
     pub(crate) brightness: f64,
+    /// The EXR file as it was when this program last looked.
+    known: Mutex<Option<Version>>,
+}
+
+/// When a file was written, and how long it is.
+type Version = (SystemTime, u64);
+
+fn version(path: &Path) -> Option<Version> {
+    let file = path.metadata().ok()?;
+    Some((file.modified().ok()?, file.len()))
+}
+
+/// The ends of the names of scenes.
+const SCENES: [&str; 3] = ["pbrt", "gltf", "glb"];
+
+/// Fails if a file that nobody named has an image of another scene than that at `path`, or none. Scenes of one name in a folder differ by
+/// their contents; otherwise a scene may have changed since.
+fn check_own(exr: &Path, scene: &Scene, path: &Path) -> Result<(), String> {
+    if !exr.exists() {
+        return Ok(());
+    }
+    let other = SCENES.iter().map(|end| path.with_extension(end)).find(|other| other != path && other.exists());
+    let own = PieceFile::open(exr).ok().map(|file| file.header.identity);
+    let what = match (own, other) {
+        (Some(own), _) if own.digest == scene.digest() => return Ok(()),
+        (Some(own), None) if own.scene == scene.name => return Ok(()),
+        (Some(own), Some(other)) if own.scene == scene.name => {
+            format!("an image that may be of {} instead of {}", other.display(), path.display())
+        }
+        (Some(own), _) => format!("an image of {}", own.scene),
+        (None, _) => "no image of this scene".to_owned(),
+    };
+    Err(format!("{}: this file has {what}, and is not replaced unasked: choose a name with -o", exr.display()))
 }
 
 impl Output {
-    /// The files to write: those that the user asked for, or those that the scene's film asks for, or else one called `stem`.
+    /// The files to write: those that the user asked for, or those that the scene's film asks for, or else one called as the scene is, whose
+    /// name or path is this.
     ///
     /// # Errors
-    /// Fails if the name does not end in `.exr`, if a file cannot be written, or if the scene has been read from it.
-    pub(crate) fn new(asked: Option<&Path>, scene: &Scene, stem: &OsStr) -> Result<Self, String> {
+    /// Fails if the name does not end in `.exr`, if a file cannot be written, if the scene has been read from it, or if nobody named it and
+    /// it has an image of another scene.
+    pub(crate) fn new(asked: Option<&Path>, scene: &Scene, path: &Path) -> Result<Self, String> {
         match (asked, &scene.film.filename) {
             (Some(path), _) => Self::of(path.to_owned(), &scene.inputs),
             // scenes for other renderers often ask for other formats
             (None, Some(file)) if !file.is_empty() => Self::of(Path::new(file).with_extension("exr"), &scene.inputs)
                 .map_err(|error| format!("{error}\nThe scene's film asks for {file:?}; -o chooses another file")),
-            (None, _) => Self::of(named(stem, ".exr"), &scene.inputs),
+            (None, _) => {
+                let own = Self::of(named(path.file_stem().unwrap_or(path.as_os_str()), ".exr"), &scene.inputs)?;
+                check_own(&own.exr, scene, path)?;
+                Ok(own)
+            }
         }
     }
 
@@ -67,7 +110,8 @@ impl Output {
                 ));
             }
         }
-        Ok(Self { exr, png, brightness: 1.0 })
+        let known = Mutex::new(version(&exr));
+        Ok(Self { exr, png, brightness: 1.0, known })
     }
 
     /// Files that do not exist yet, called `stem`, or that and a number.
@@ -76,6 +120,7 @@ impl Output {
             exr: named(stem, &format!("{end}.exr")),
             png: named(stem, &format!("{end}.png")),
             brightness: 1.0,
+            known: Mutex::new(None),
         };
         let names = (2..).map(|n| with(format!("-{n}")));
         let mut all = std::iter::once(with(String::new())).chain(names);
@@ -108,10 +153,11 @@ impl Output {
         written.map_err(|error| format!("{error}; {} was written, but its PNG was not", self.exr.display()))
     }
 
-    /// Like [`Output::write`]; an interruption meanwhile waits, and one after it says what the files hold.
+    /// Like [`Output::write`]; an interruption meanwhile waits, and one after it says what the files hold. If another program has written the
+    /// file since the last time, the image is written beside it.
     ///
     /// # Errors
-    /// Fails if a file cannot be written; the message says what has been written.
+    /// Fails if a file cannot be written, or if another program has written it; the message says what has been written.
     pub(crate) fn save(
         &self,
         interrupt: &Interrupt,
@@ -120,10 +166,48 @@ impl Output {
         error: Option<Claim>,
     ) -> Result<(), String> {
         let mut status = interrupt.lock();
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        // of two programs that end at the same time, one looks after the other has written; where folders cannot be locked, nearly always
+        let folder = self.exr.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let folder = File::open(folder);
+        let _locked = folder.as_ref().map(File::lock);
+        if version(&self.exr) != *known {
+            let other = self.beside("");
+            other.write(film, identity)?;
+            let exr = self.exr.display();
+            return Err(format!(
+                "{exr}: another program has written this file meanwhile: this image is in {}",
+                other.both()
+            ));
+        }
         self.write(film, identity)?;
-        status.text = self.holds(identity, error);
-        status.last = None;
+        *known = version(&self.exr);
+        status.hold(self.holds(identity, error));
         Ok(())
+    }
+
+    /// New files beside these, with the same brightness.
+    fn beside(&self, end: &str) -> Self {
+        let mut stem = self.exr.with_extension("").into_os_string();
+        stem.push(end);
+        Self { brightness: self.brightness, ..Self::free(&stem) }
+    }
+
+    /// Writes what an interrupted rendering has to files of their own, and says so. Pixels may have any number of samples.
+    ///
+    /// # Errors
+    /// Fails if a file cannot be written; the message says what has been written.
+    pub(crate) fn save_part(&self, film: &Film, identity: &Identity) -> Result<String, String> {
+        let samples = film.pixels.iter().map(|pixel| f64::from(pixel.samples));
+        let share = samples.sum::<f64>() / (film.pixels.len() as f64 * f64::from(identity.settings.spp));
+        let least = film.pixels.iter().map(|pixel| pixel.samples).min().unwrap_or(0);
+        if share == 0.0 {
+            return Ok("no pixel was finished".to_owned());
+        }
+        let files = self.beside("-partial");
+        files.write(film, identity)?;
+        let black = if least == 0 { ", and pixels without any are black" } else { "" };
+        Ok(format!("{} have {} of the samples{black}", files.both(), percent(share.min(1.0))))
     }
 
     /// What to say of the files.

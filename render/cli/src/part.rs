@@ -58,9 +58,13 @@ enum What {
 }
 
 impl PartOptions {
+    /// Whether a part is asked for.
+    pub(crate) const fn is_asked(&self) -> bool {
+        self.tile.is_some() || self.pilot || self.after.is_some()
+    }
     /// The part that is asked for, if one is.
     pub(crate) fn content(&self, settings: &Settings) -> Result<Option<PartContent>, String> {
-        if self.tile.is_none() && !self.pilot && self.after.is_none() {
+        if !self.is_asked() {
             return Ok(None);
         }
         let &Settings { width, height, sampler, .. } = settings;

@@ -54,7 +54,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let (scene, settings) = image.load()?;
     image.check(&settings)?;
     // what can be wrong with it should not be found after hours
-    let output = Output::new(output.as_deref(), &scene, image.stem())?.exr;
+    let output = Output::new(output.as_deref(), &scene, Path::new(&image.scene))?.exr;
     let folder = parts.clone().unwrap_or_else(|| output.with_extension("parts"));
     if folder.exists() && !folder.is_dir() {
         return Err(format!("--parts {}: this is a file, not a folder", folder.display()).into());

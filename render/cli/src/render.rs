@@ -1,6 +1,7 @@
 //! `etendue render`: renders a scene with a given number of samples, or until its error or the time is what was asked for.
 
 use crate::beside::{Beside, Cost};
+use crate::hints::{hint, wasted, windows};
 use crate::image::ImageOptions;
 use crate::interrupt::Interrupt;
 use crate::output::{Output, grouped, percent};
@@ -10,15 +11,16 @@ use crate::progress::bar;
 use clap::Args;
 use etendue_laboratory::cost::median;
 use etendue_laboratory::options::{named, out, pool, say, whole};
+use etendue_render::drive::Trial;
 use etendue_render::drive::progressive::{self, Goal, Pass, Progress, Refinement};
 use etendue_render::film::Film;
 use etendue_render::film::claim::{Claim, why_unknown};
 use etendue_render::sampler::reports_variance;
-use etendue_render::{Identity, RayCount, Sampler, Sensor, Settings, Technique, World};
+use etendue_render::{ChoiceBy, Identity, RayCount, Sampler, Sensor, Settings, Technique, World};
 use serde_json::{Value, json};
 use std::error::Error;
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 #[derive(Args)]
@@ -62,62 +64,6 @@ fn stops(text: &str) -> Result<f64, String> {
     valid.ok_or_else(|| "must be a number of stops from -100 to 100, such as -3 or 0.5".to_owned())
 }
 
-/// What may help where an image is black, or its PNG nearly black or white; `brightness` is what the PNG is multiplied by, and `only_pictures`
-/// whether nothing but the textures of surfaces emits.
-fn hint(film: &Film, brightness: f64, has_sky: bool, only_pictures: bool) -> Option<String> {
-    let mut all: Vec<f32> = film.pixels.iter().map(|pixel| pixel.mean.iter().sum::<f32>() / 3.0).collect();
-    if all.iter().all(|x| *x == 0.0) {
-        let sky = if has_sky { "" } else { "; --environment FILE adds a sky" };
-        return Some(format!("the image is black: the camera sees nothing that is lit or emits{sky}"));
-    }
-    all.sort_by(f32::total_cmp);
-    // of pixels that are not black
-    let lit = &all[all.partition_point(|x| *x <= 0.0)..];
-    let middle = f64::from(lit[lit.len() / 2]) * brightness;
-    let stops = (0.5 / middle).log2().round();
-    // the PNG is white at 4, and nearly black below a hundredth
-    if middle >= 4.0 {
-        return Some(format!("the PNG is nearly white: --exposure {stops} darkens it"));
-    }
-    // screens and signs are rarely meant to light a scene
-    if only_pictures && middle < 0.1 {
-        return Some("only textures of surfaces emit light: --environment FILE adds a sky".to_owned());
-    }
-    if middle >= 0.01 {
-        return None;
-    }
-    let sky = if has_sky { "" } else { ", and --environment FILE adds a sky" };
-    Some(format!("the PNG is nearly black: --exposure {stops} brightens it{sky}"))
-}
-
-/// What may help where the sky lights a room through its windows.
-fn windows(world: &World) -> Option<String> {
-    let share = world.openness().filter(|share| (1e-3..0.15).contains(share))?;
-    let share = percent(share);
-    Some(format!(
-        "what the camera sees is open to the sky in {share} of all directions: a \"point3 portal\" of four corners in each window, facing inwards, \
-         sends all samples there"
-    ))
-}
-
-/// What may help where a number of samples makes a sampler no better than independent numbers: one that nobody chose, or sets of one sample
-/// where the sampler or the sets were chosen.
-fn wasted(settings: &Settings, is_chosen: bool) -> Option<String> {
-    let Settings { spp, sampler, sets, .. } = *settings;
-    if spp > 1 && sampler == Sampler::Independent && !is_chosen {
-        let next = spp.next_multiple_of(2);
-        return Some(format!(
-            "{spp} samples per pixel are independent, since they are odd: --spp {next} has less noise"
-        ));
-    }
-    let is_chosen = is_chosen || sets > 0;
-    let sets = sampler.sets(spp, sets);
-    (is_chosen && sampler.has_sets() && spp > 1 && sets == spp).then(|| {
-        let more = 4 * sets;
-        format!("sets of one sample are independent, whatever the sampler: --spp {more} makes sets of 4, with less noise for their number")
-    })
-}
-
 /// The greatest fraction that `--error` takes without a percent sign: more is likely meant as a percentage.
 const MOST_BARE: f64 = 0.2;
 
@@ -154,6 +100,8 @@ struct Image {
     seconds: Vec<f64>,
     /// Empty unless there was a goal.
     passes: Vec<Pass>,
+    /// What `auto` has taken, if a trial told.
+    taken: Option<String>,
 }
 
 /// Renders, writes and reports.
@@ -161,6 +109,10 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let interrupt = Interrupt::new()?;
     let start = Instant::now();
     let image = &options.image;
+    // what is wrong with it should not be found after a scene was read; a part makes its folder
+    if let Some(path) = options.output.as_ref().filter(|_| !options.part.is_asked()) {
+        Output::of(path.clone(), &[])?;
+    }
     let (mut scene, settings) = image.load()?;
     let load = start.elapsed().as_secs_f64();
     let goal = Goal { seconds: options.time, error: options.error };
@@ -172,7 +124,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     if let Some(content) = options.part.content(&settings)? {
         return part::run(image, &content, options.output.as_deref(), scene, settings, options.json, &interrupt);
     }
-    let mut output = Output::new(options.output.as_deref(), &scene, image.stem())?;
+    let mut output = Output::new(options.output.as_deref(), &scene, Path::new(&image.scene))?;
     output.brightness = scene.film.exposure * options.exposure.exp2();
     let has_sky = scene.environment.is_some();
     let only_pictures = !has_sky
@@ -192,40 +144,39 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         world.check(&Settings { technique: beside.technique, ..settings })?;
     }
     let build = start.elapsed().as_secs_f64();
+    let start = Instant::now();
+    let asked = settings;
+    let (settings, trial) = pool.install(|| {
+        let view = world.view(&asked);
+        (*view.settings(), view.trial().copied())
+    });
+    let trial = trial.map(|trial| (trial, start.elapsed().as_secs_f64()));
+    let plan = plan.map(|plan| Refinement { settings, ..plan });
 
-    let studio = Session { world: &world, identity, output: &output, interrupt: &interrupt };
+    let studio = Session { world: &world, identity, settings, output: &output, interrupt: &interrupt };
     let technique = beside.as_ref().map(|beside| beside.technique);
-    let (done, other) = pool.install(move || -> Result<_, String> {
+    let (mut done, other) = pool.install(move || -> Result<_, String> {
         let done = match &plan {
             None => studio.once(options.repeat),
             Some(plan) => studio.refine(plan),
         }?;
         let seconds = median(&done.seconds);
-        let other = technique.map(|technique| studio.other(Settings { technique, ..settings }, image.sampler, seconds));
+        let other = technique.map(|technique| studio.other(Settings { technique, ..asked }, image.sampler, seconds));
         Ok((done, other.transpose()?))
     })?;
 
-    let chosen = world.view(&settings).technique();
+    let chosen = settings.technique;
     let times = [load, build];
     let said = if options.json {
-        let object = to_json(options, &settings, chosen, &done, &output, times, pool.current_num_threads());
+        let object = to_json(options, &asked, chosen, &done, &output, times, pool.current_num_threads());
         writeln!(out(), "{object}")
     } else {
-        print(options, &settings, chosen, &scene.name, &done, &output, times)
+        done.taken = trial.as_ref().map(|trial| taken(&settings, trial));
+        print(options, &title(asked.technique, chosen), &scene.name, &done, &output, times)
     };
     said.map_err(|error| output.were_written(&error))?;
     if let (Some(beside), Some(other)) = (beside, other) {
-        let wrote = beside.write(&other.film, &done.film, exposure)?;
-        let of = |settings: &Settings, seconds: f64, shadow_rays: u64, error: Option<Claim>| Cost {
-            technique: title(settings.technique, world.view(settings).technique()),
-            seconds,
-            shadow_rays,
-            error,
-        };
-        let left =
-            of(&Settings { technique: beside.technique, ..settings }, other.seconds, other.rays.shadow, other.error);
-        let right = of(&settings, median(&done.seconds), done.rays.shadow, done.error);
-        writeln!(out(), "{wrote}: the same scene in about the same time\n  left   {left}\n  right  {right}")?;
+        show_beside(&beside, other, &done, title(asked.technique, chosen), exposure)?;
     }
     // glTF has no portals
     let name = image.scene.to_string_lossy().to_ascii_lowercase();
@@ -241,10 +192,33 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// Writes the picture of the image and another, and says what each took.
+fn show_beside(
+    beside: &Beside,
+    (other, by): (Progress, Technique),
+    done: &Image,
+    technique: String,
+    exposure: f64,
+) -> Result<(), Box<dyn Error>> {
+    let wrote = beside.write(&other.film, &done.film, exposure)?;
+    let left = Cost {
+        technique: title(beside.technique, by),
+        seconds: other.seconds,
+        shadow_rays: other.rays.shadow,
+        error: other.error,
+    };
+    let right = Cost { technique, seconds: median(&done.seconds), shadow_rays: done.rays.shadow, error: done.error };
+    writeln!(out(), "{wrote}: the same scene in about the same time\n  left   {left}\n  right  {right}")?;
+    Ok(())
+}
+
 /// Everything that an image is made with.
 struct Session<'a> {
     world: &'a World,
+    /// What was asked for.
     identity: Identity,
+    /// The same, by what `auto` takes.
+    settings: Settings,
     output: &'a Output,
     interrupt: &'a Interrupt,
 }
@@ -252,25 +226,40 @@ struct Session<'a> {
 impl Session<'_> {
     /// Renders the same image `repeat` times and writes it.
     fn once(&self, repeat: u32) -> Result<Image, String> {
-        let Settings { width, height, spp, sampler, sets, .. } = self.identity.settings;
+        let Settings { width, height, spp, sampler, sets, .. } = self.settings;
         let pixels = u64::from(width) * u64::from(height);
         let bar = bar(pixels * u64::from(repeat), "{wide_bar} {percent:>3} %  {elapsed} of {duration}");
-        self.interrupt.watch(&bar, &self.output.exr);
+        let stop = self.interrupt.stop(&bar, &self.output.exr);
         let mut seconds = Vec::new();
-        let mut last = None;
-        for _ in 0..repeat {
+        let (film, rays) = loop {
             let start = Instant::now();
-            let view = self.world.view(&self.identity.settings);
-            last = Some(view.image(&|done| bar.inc(done)));
+            let view = self.world.view(&self.settings).stopped_by(&stop.flag);
+            let image = view.image(&|done| bar.inc(done));
             seconds.push(start.elapsed().as_secs_f64());
-        }
-        let (film, rays) = last.unwrap_or_else(|| unreachable!("--repeat is at least 1"));
+            if stop.is_set() {
+                self.interrupt.end(&stop, &self.output.save_part(&image.0, &self.identity)?);
+            }
+            if seconds.len() as u32 == repeat {
+                break image;
+            }
+        };
         bar.finish_and_clear();
-        let error = Claim::new(&film, &self.world.view(&self.identity.settings).foreseen(), spp.into());
+        let error = Claim::new(&film, &self.world.view(&self.settings).foreseen(), spp.into());
         self.output.save(self.interrupt, &film, &self.identity, error)?;
         let has_sets = reports_variance(sampler, spp, sets);
         let sets = sampler.sets(spp, sets);
-        Ok(Image { film, error, rays, spp: spp.into(), sampler, sets, has_sets, seconds, passes: Vec::new() })
+        Ok(Image {
+            film,
+            error,
+            rays,
+            spp: spp.into(),
+            sampler,
+            sets,
+            has_sets,
+            seconds,
+            passes: Vec::new(),
+            taken: None,
+        })
     }
 
     /// Renders passes and writes the image after each.
@@ -298,7 +287,7 @@ impl Session<'_> {
         };
         let finish = |known: &Progress| {
             let (spp, sampler) = (u32::try_from(known.spp).unwrap_or(u32::MAX), known.passes[0].sampler);
-            let settings = Settings { spp, sampler, ..plan.settings };
+            let settings = Settings { spp, sampler, ..self.identity.settings };
             let identity = Identity { settings, ..self.identity.clone() };
             self.output.save(self.interrupt, &known.film, &identity, known.error)
         };
@@ -308,11 +297,17 @@ impl Session<'_> {
         let largest = passes.iter().max_by_key(|p| p.spp).unwrap_or_else(|| unreachable!("there is a first pass"));
         let (sampler, sets) = (largest.sampler, largest.sampler.sets(largest.spp, plan.settings.sets));
         let has_sets = passes.iter().all(|p| reports_variance(p.sampler, p.spp, plan.settings.sets));
-        Ok(Image { film, error, rays, spp, sampler, sets, has_sets, seconds: vec![seconds], passes })
+        Ok(Image { film, error, rays, spp, sampler, sets, has_sets, seconds: vec![seconds], passes, taken: None })
     }
 
     /// Renders the scene with other settings in so many seconds, and writes nothing.
-    fn other(&self, settings: Settings, sampler: Option<Sampler>, seconds: f64) -> Result<Progress, String> {
+    fn other(
+        &self,
+        settings: Settings,
+        sampler: Option<Sampler>,
+        seconds: f64,
+    ) -> Result<(Progress, Technique), String> {
+        let settings = *self.world.view(&settings).settings();
         let plan = Refinement { settings, sampler, goal: Goal { seconds: Some(seconds), error: None } };
         let template = format!("{{wide_bar}} {{elapsed}} of {seconds:.1} s, by {}", settings.technique.name());
         let bar = bar((seconds * 1000.0) as u64, &template);
@@ -320,8 +315,25 @@ impl Session<'_> {
         let advance = |_| bar.set_position(began.elapsed().as_millis() as u64);
         let done = progressive::render(self.world, &plan, &advance, |_, _| (), |_| Ok(()));
         bar.finish_and_clear();
-        done
+        Ok((done?, settings.technique))
     }
+}
+
+/// What `auto` has taken, over what, and by how much.
+fn taken(settings: &Settings, (trial, seconds): &(Trial, f64)) -> String {
+    let name = |technique: Technique, choice: ChoiceBy| match choice {
+        ChoiceBy::Auto => technique.name().to_owned(),
+        _ => format!("{} with the choice {}", technique.name(), choice.name()),
+    };
+    let (technique, choice) = trial.over;
+    format!(
+        "auto took {}: {:.2} times as efficient as {} in {} tiles of a trial, {} of the samples, {seconds:.3} s",
+        name(settings.technique, settings.choice),
+        trial.times,
+        name(technique, choice),
+        trial.tiles,
+        percent(trial.part)
+    )
 }
 
 fn to_json(
@@ -408,18 +420,19 @@ fn rays(count: &RayCount, seconds: f64) -> String {
 
 fn print(
     options: &Options,
-    settings: &Settings,
-    chosen: Technique,
+    technique: &str,
     scene: &str,
     image: &Image,
     output: &Output,
     [load, build]: [f64; 2],
 ) -> io::Result<()> {
     let mut out = out();
-    let Settings { width, height, technique, .. } = settings;
+    let Film { width, height, .. } = image.film;
     let sampler = image.sampler.name();
-    let technique = title(*technique, chosen);
     writeln!(out, "{scene}: {width}x{height}, {} samples per pixel, {technique}, {sampler}", image.spp)?;
+    if let Some(taken) = &image.taken {
+        writeln!(out, "{taken}")?;
+    }
     if !image.passes.is_empty() {
         let spp: Vec<String> = image.passes.iter().map(|p| p.spp.to_string()).collect();
         writeln!(out, "passes of {} samples per pixel", spp.join(", "))?;

@@ -13,7 +13,7 @@ pub struct Scratch {
     pub(super) instances: Vec<instances::Visit>,
 }
 
-/// Numbers of rays traced for an image.
+/// Numbers of rays traced for an image, and of what else takes time.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RayCount {
     /// Rays from the camera.
@@ -24,6 +24,10 @@ pub struct RayCount {
     pub shadow: u64,
     /// Rays through the corners of pixels, which find the lights that matter there.
     pub corner: u64,
+    /// Proofs that were asked for of what hides a light: no rays, but part of what an image costs.
+    pub proofs: u64,
+    /// Closed forms that were computed for eight points at a time: one for each light, and one for each solid that may hide it.
+    pub forms: u64,
 }
 
 impl AddAssign for RayCount {
@@ -32,6 +36,8 @@ impl AddAssign for RayCount {
         self.mirror += other.mirror;
         self.shadow += other.shadow;
         self.corner += other.corner;
+        self.proofs += other.proofs;
+        self.forms += other.forms;
     }
 }
 

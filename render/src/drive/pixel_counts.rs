@@ -21,7 +21,7 @@ use libm::pow;
 
 /// The squared error falls about as N^−1.5 if a pixel's integrand is smooth except for edges. Then Σ cᵢ nᵢ^−1.5 for a given Σ nᵢ is
 /// least with nᵢ ∝ cᵢ^0.4.
-const POWER: f64 = 0.4;
+pub(super) const POWER: f64 = 0.4;
 /// Neighbours are at most this many rows and columns away.
 const NEAR: usize = 2;
 /// Pixels up to this far away have a small weight, since all near ones may have missed an edge that passes through the pixel. (This

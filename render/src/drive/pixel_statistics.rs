@@ -2,8 +2,8 @@
 
 use super::light_weights::APART;
 use crate::choose::allocation::Allocated;
-use crate::film::sums::{Adder, Sum};
-use crate::film::{Accumulator, channels};
+use crate::film::sums::{Adder, Moments, Sum};
+use crate::film::{Accumulator, Pixel, channels};
 use crate::packet::V8;
 use etendue::Real;
 use etendue::estimate::Welford;
@@ -39,6 +39,12 @@ impl Default for Statistics {
 }
 
 impl Statistics {
+    /// The pixel of these samples alone, in so many sets.
+    pub(super) fn pixel(&self, sets: u32) -> Pixel {
+        let set = |sum: &[f64; 3]| (8 * self.packets, Moments { sum: *sum, ..Moments::default() });
+        let sets = if self.packets > 0 { sets as usize } else { 0 };
+        Pixel::of_sets(self.sums.iter().take(sets).map(set), false)
+    }
     /// The squared difference of two successive samples, or what has the same effect, over the root of the [part](Self::part) that causes it:
     /// a set of n samples has a variance that is about proportional to this and to n^−1.5. (Where one sample of n has met something, the
     /// others tell it from nothing, and the variance is that of independent samples; where h of them have, only its outline is left to

@@ -60,6 +60,8 @@ pub struct Progress {
 const FIRST: u32 = 16;
 /// A pass has at most this many times the samples of the largest so far, so that its time and error can be predicted.
 const GROWTH: u32 = 8;
+/// Unless the time ends within this many times such a pass.
+const STRETCH: f64 = 2.5;
 /// A pass of fewer samples than this fraction of the largest so far is not worth its time: it has less than 2 % of the weight.
 const WORTH: f64 = 1.0 / 16.0;
 /// The greatest number of passes after which an error is not known that seems to be reached, and stays unknown.
@@ -161,8 +163,15 @@ impl Refined {
         // smaller passes have another sampler
         let full =
             counts.iter().copied().find(|&n| plan.sampler_of(n) == plan.sampler_of(MOST_SAMPLES)).unwrap_or(counts[0]);
-        let foreseen = world.view(&plan.settings).foreseen();
-        Ok(Self { plan: *plan, counts, full, foreseen, weights: Vec::new(), index: 0, pace: 0.0, known: None })
+        let view = world.view(&plan.settings);
+        let (foreseen, plan) = (view.foreseen(), Refinement { settings: *view.settings(), ..*plan });
+        Ok(Self { plan, counts, full, foreseen, weights: Vec::new(), index: 0, pace: 0.0, known: None })
+    }
+
+    /// The settings of the passes but for `spp` and `sampler`, by what `auto` takes.
+    #[must_use]
+    pub const fn settings(&self) -> &Settings {
+        &self.plan.settings
     }
 
     /// What is known after the last pass.
@@ -316,7 +325,8 @@ fn decide(
 ) -> Option<u32> {
     let largest = mean.passes.iter().map(|p| p.spp).max()?;
     let last = mean.passes.last()?;
-    let mut next = f64::from(largest.saturating_mul(GROWTH).max(full));
+    let most = f64::from(largest.saturating_mul(GROWTH).max(full));
+    let (mut next, mut wanted) = (most, f64::INFINITY);
     if let Some(target) = goal.error {
         let claim = mean.error?;
         let excess = claim.excess(target);
@@ -334,10 +344,13 @@ fn decide(
         let missing = weight * (excess - 1.0).max(0.0);
         let least = if is_uncertain { largest } else { last.spp };
         let needed = at_least(counts, missing.powf(power.recip()).max(f64::from(least)));
-        next = next.min(needed.map_or(f64::INFINITY, f64::from));
+        wanted = needed.map_or(wanted, f64::from);
+        next = next.min(wanted);
     }
     if let Some(time) = goal.seconds {
-        next = next.min((time - seconds) * SPARE * f64::from(last.spp) / last.seconds);
+        let left = (time - seconds) * SPARE * f64::from(last.spp) / last.seconds;
+        // what would be left after the greatest pass is taken in the same, unless it is much
+        next = if next >= most && left <= STRETCH * most { left.min(wanted) } else { next.min(left) };
         if next < f64::from(largest) * WORTH {
             return None;
         }
@@ -387,13 +400,9 @@ fn images(passes: &[Pass], power: f64) -> f64 {
     sum * sum / squares
 }
 
-fn sum(a: RayCount, b: RayCount) -> RayCount {
-    RayCount {
-        camera: a.camera + b.camera,
-        mirror: a.mirror + b.mirror,
-        shadow: a.shadow + b.shadow,
-        corner: a.corner + b.corner,
-    }
+fn sum(mut a: RayCount, b: RayCount) -> RayCount {
+    a += b;
+    a
 }
 
 #[cfg(test)]

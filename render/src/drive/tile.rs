@@ -47,12 +47,17 @@ pub(super) struct TileRenderer<'a> {
 }
 
 impl<'a> TileRenderer<'a> {
-    pub(super) fn new(world: &'a World, settings: &'a Settings, camera: Camera, exposure: Option<Exposure>) -> Self {
+    pub(super) fn new(
+        world: &'a World,
+        settings: &'a Settings,
+        camera: Camera,
+        exposure: Option<Exposure>,
+        know: Option<Box<dyn Know + 'a>>,
+    ) -> Self {
         let Settings { sampler, seed, spp, sets, width, .. } = *settings;
         let scene = &world.scene;
         let sampled = scene.sampled(settings.technique, settings.choice);
         let (lights, chooser) = sampled.unwrap_or_else(|what| panic!("the choice of a light needs {what}"));
-        let know = world.know(settings, &camera);
         let sampled = Sampled::new(settings.technique, know.is_some() && scene.surfaces.has_rough());
         Self {
             scene,
@@ -75,7 +80,8 @@ impl<'a> TileRenderer<'a> {
 
     /// Rays traced since the last call.
     pub(super) fn take_count(&mut self) -> RayCount {
-        std::mem::take(&mut self.paths.tracer.count)
+        let [proofs, forms] = self.know.as_mut().map_or([0; 2], |know| know.take_counts());
+        RayCount { proofs, forms, ..std::mem::take(&mut self.paths.tracer.count) }
     }
 
     /// Renders all samples of the pixels of a tile [x0, y0, x1, y1), row by row.

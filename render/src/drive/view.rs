@@ -1,5 +1,6 @@
 //! An image of a scene through a camera: its technique, its samples, and what is known of its lights.
 
+use super::auto::{Plan, SEEDS, Trial, Tried, Way, best, cost};
 use super::corners::packets_for;
 use super::pixel_counts::{PixelCounts, SamplePlan};
 use super::pixel_statistics::Statistics;
@@ -9,6 +10,7 @@ use super::world::World;
 
 use crate::bvh::RayCount;
 use crate::camera::Camera;
+use crate::choose::ChoiceBy;
 use crate::film::claim::Foreseen;
 use crate::film::sums::{Moments, Sample, Sum};
 use crate::film::{Film, Pixel, PixelSum};
@@ -44,7 +46,8 @@ pub enum Content {
     Counts(PixelCounts),
 }
 
-/// A world seen through a camera, with settings whose technique is fixed. Nothing that a view returns depends on the number of threads.
+/// A world seen through a camera, with settings whose technique is fixed: for [`Technique::Auto`], a trial has found it. Nothing that a view
+/// returns depends on the number of threads.
 ///
 /// # Panics
 /// Whatever renders panics if [`World::check`] fails.
@@ -53,6 +56,9 @@ pub struct View<'a> {
     world: &'a World,
     camera: Camera,
     settings: Settings,
+    /// Samples per pixel of the image that decide what is worth knowing: a trial takes fewer.
+    worth: u32,
+    trial: Option<Trial>,
     stop: Option<&'a AtomicBool>,
 }
 
@@ -71,8 +77,13 @@ impl World {
     /// Panics unless [`Settings::check`] allows them.
     pub fn view_through(&self, camera: &Camera, settings: &Settings) -> View<'_> {
         assert_eq!(settings.check(), Ok(()));
-        let view = View { world: self, camera: *camera, settings: *settings, stop: None };
-        if settings.technique == Technique::Auto { view.by(view.choose()) } else { view }
+        let view =
+            View { world: self, camera: *camera, settings: *settings, worth: settings.spp, trial: None, stop: None };
+        if settings.technique != Technique::Auto {
+            return view;
+        }
+        let (way, trial) = view.decide();
+        View { trial, ..view.by(way, *settings) }
     }
 
     /// Renders the image of the scene's camera, as [`View::image`] does.
@@ -85,7 +96,8 @@ impl World {
 }
 
 impl<'a> View<'a> {
-    /// The same, but as soon as `stop` is true, all tiles that have not begun are left black.
+    /// The same, but as soon as `stop` is true, all tiles that have not begun are left as they are: black and without samples, or with those of
+    /// the pilot alone.
     #[must_use]
     pub const fn stopped_by(self, stop: &'a AtomicBool) -> Self {
         Self { stop: Some(stop), ..self }
@@ -93,30 +105,90 @@ impl<'a> View<'a> {
 }
 
 impl View<'_> {
-    fn by(&self, technique: Technique) -> Self {
-        Self { settings: Settings { technique, ..self.settings }, ..*self }
+    /// What `auto` takes, and the trial that found it; without one, the rule.
+    fn decide(&self) -> (Way, Option<Trial>) {
+        let ways = self.ways();
+        let Some(plan) = (if ways.len() > 1 { Plan::new(&self.settings, ways.len()) } else { None }) else {
+            return (ways[0], None);
+        };
+        let pairs = ways.iter().flat_map(|&way| plan.tiles.iter().map(move |&tile| (way, tile)));
+        let pairs: Vec<(Way, Area)> = pairs.collect();
+        let tried = pairs.into_par_iter().map(|(way, tile)| self.try_tile(way, tile, plan.spp));
+        best(&ways, &plan, &tried.collect::<Vec<_>>(), self.settings.sampler == Sampler::Adaptive)
     }
 
-    /// The technique that samples the lights: the one of the settings, or the one chosen for [`Technique::Auto`].
+    /// Renders a tile twice in one way, with so many samples per pixel.
+    fn try_tile(&self, way: Way, tile: Area, spp: u32) -> Tried {
+        let render = |seed: u64| {
+            let view = self.by(way, Settings { spp, seed, ..self.settings });
+            let (content, count) = view.render(tile, Samples::All, &|_| ());
+            let Content::Pixels(pixels) = content else { unreachable!("all samples make finished pixels") };
+            (pixels, count)
+        };
+        let [(first, count), (second, _)] = SEEDS.map(render);
+        let times = f64::from(self.settings.spp) / f64::from(spp);
+        Tried::new(tile, [&first, &second], cost(way, self.has_few(), &count, times))
+    }
+
+    /// The same by another way, with other settings of which the image is worth knowing the same.
+    fn by(&self, (technique, choice): Way, settings: Settings) -> Self {
+        Self { settings: Settings { technique, choice, ..settings }, ..*self }
+    }
+
+    /// The technique that samples the lights: the one of the settings, or the one taken for [`Technique::Auto`].
     #[must_use]
     pub const fn technique(&self) -> Technique {
         self.settings.technique
     }
 
-    /// The technique for [`Technique::Auto`].
+    /// The settings, with the technique and the choice of a light that are taken for [`Technique::Auto`].
+    #[must_use]
+    pub const fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// The trial that chose them, if there was one.
+    #[must_use]
+    pub const fn trial(&self) -> Option<&Trial> {
+        self.trial.as_ref()
+    }
+
+    /// The ways that may be best for [`Technique::Auto`]. The first is taken without a trial: the rule. All others have bounded weights, or none
+    /// that they could miss, so that few tiles tell: points uniform over the area of a lamp, and lamps chosen by their power, are not tried.
     ///
     /// Through a lens most of the error is that of the image's edges: closed forms then take time that they do not save. (By `etendue render
     /// SCENE --spp 64 --size 256x256 --threads 1`, `analytic` takes twice as long on `defocus`.) Of lights with pictures, parallelograms have
     /// one.
-    fn choose(&self) -> Technique {
-        let scene = &self.world.scene;
+    fn ways(&self) -> Vec<Way> {
+        let (scene, choice) = (&self.world.scene, self.settings.choice);
+        let is_rough = scene.surfaces.has_rough();
+        let sampled = if is_rough { Technique::MisLobe } else { Technique::SolidAngle };
+        let mut ways = vec![(sampled, choice)];
         if self.world.has_closed_forms(&self.settings) && !self.camera.has_lens() {
-            Technique::Analytic
-        } else if scene.surfaces.has_rough() {
-            Technique::MisLobe
-        } else {
-            Technique::SolidAngle
+            ways.insert(0, (Technique::Analytic, choice));
         }
+        if choice != ChoiceBy::Auto {
+            return ways;
+        }
+        // lights are then chosen at the points themselves, not at the corners of their pixel
+        if self.has_few() {
+            ways.push((sampled, ChoiceBy::Spatial));
+        }
+        if scene.sky.as_ref().is_some_and(|sky| sky.is_soft) {
+            // most of it may be hidden, as behind the walls of a room
+            if scene.lights.len() == 1 {
+                ways.push((Technique::Brdf, choice));
+            } else if !is_rough {
+                ways.push((Technique::MisPower, choice));
+            }
+        }
+        ways
+    }
+
+    /// Whether samples can be allocated to a few lights.
+    fn has_few(&self) -> bool {
+        let lights = &self.world.scene.lights;
+        lights.only_few_areas() && lights.len() > 1
     }
 
     /// What the scene tells of the error of its image, whatever the samples.
@@ -174,15 +246,19 @@ impl View<'_> {
             Samples::All if is_adaptive => {
                 let (found, mut rays) = self.pilot(area, &|_| ());
                 let counts = PixelCounts::new(settings, area, &found);
-                let (content, more) = self.render(area, Samples::Rest(&counts), progress);
+                let (mut content, more) = self.render(area, Samples::Rest(&counts), progress);
                 rays += more;
+                if let Content::Pixels(pixels) = &mut content {
+                    self.fill(pixels, &found);
+                }
                 (content, rays)
             }
             Samples::All => {
-                let (pixels, rays) = match settings.sampler {
+                let (mut pixels, rays) = match settings.sampler {
                     Sampler::Independent => self.pixels::<Moments>(area, progress),
                     _ => self.pixels::<Sum>(area, progress),
                 };
+                self.fill(&mut pixels, &[]);
                 (Content::Pixels(pixels), rays)
             }
             Samples::Pilot => {
@@ -200,6 +276,16 @@ impl View<'_> {
                 });
                 (Content::Pixels(pixels), rays)
             }
+        }
+    }
+
+    /// Fills the pixels of tiles that have not begun, since the view was stopped: by the pilot as far as that was rendered. (When that is depends
+    /// on time, and never on samples.)
+    fn fill(&self, pixels: &mut [Pixel], pilot: &[Statistics]) {
+        if self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed)) {
+            let sets = self.plan().sets;
+            let pilot = |i: usize| pilot.get(i).copied().unwrap_or_default().pixel(sets);
+            pixels.iter_mut().enumerate().filter(|(_, p)| p.samples == 0).for_each(|(i, p)| *p = pilot(i));
         }
     }
 
@@ -232,7 +318,8 @@ impl View<'_> {
 
     fn renderer(&self) -> TileRenderer<'_> {
         let Settings { width, height, .. } = self.settings;
-        TileRenderer::new(self.world, &self.settings, self.camera, self.world.exposure(width, height))
+        let know = self.world.know(&Settings { spp: self.worth, ..self.settings }, &self.camera);
+        TileRenderer::new(self.world, &self.settings, self.camera, self.world.exposure(width, height), know)
     }
 
     /// Calls `of` for each tile in parallel and assembles the rows it returns to an image.

@@ -30,6 +30,8 @@ pub(super) struct ClosedForms {
     two: Option<Box<Occlusion<f32x16>>>,
     exact: Option<Box<Occlusion<f64x8>>>,
     waiting: Option<Ask>,
+    /// Number of lights and occluders, over all packets that asked.
+    pub(super) asked: u64,
 }
 
 fn joined(a: V8, b: V8) -> Vec3<f32x16> {
@@ -59,6 +61,7 @@ impl ClosedForms {
     }
     /// The visible part for one more packet. `done` takes packets, sooner or later, with their parts, which may be unknown.
     pub(super) fn add(&mut self, ask: Ask, light: &Solid, solids: &[Solid], mut done: impl FnMut(&Ask, Option<X8>)) {
+        self.asked += 1 + ask.behind.len() as u64;
         if ask.precision == Precision::Double {
             done(&ask, self.alone(&ask, light, solids));
             return;

@@ -57,6 +57,9 @@ impl Know for Knowledge<'_> {
             }
         });
     }
+    fn take_counts(&mut self) -> [u64; 2] {
+        [&mut self.certificates.asked, &mut self.forms.asked].map(std::mem::take)
+    }
     /// A fraction of what the lights that are computed would contribute if nothing hid them.
     fn error_bound(&mut self, points: &Points) -> V8 {
         let (surface, place) = (&points.surfaces[0], &points.places[0]);

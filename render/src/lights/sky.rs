@@ -23,7 +23,12 @@ pub struct Sky {
     moments: Moments,
     portals: Option<SkyPortals>,
     sun: Option<SunBefore>,
+    /// Whether no part of it is so much brighter than the rest that directions at random would hardly ever meet what matters: a sun.
+    pub(crate) is_soft: bool,
 }
+
+/// A texel of a soft sky has at most so many times the mean.
+const SOFT: f64 = 50.0;
 
 #[derive(Clone, Debug)]
 enum SkyKind {
@@ -96,17 +101,22 @@ fn flux_of(disk: &scene::SunDisk) -> f64 {
 impl Sky {
     /// Builds the table.
     pub fn new(environment: &scene::Environment) -> Self {
+        let mut is_soft = environment.sun.is_none();
         let kind = match &environment.sky {
             scene::SkyRadiance::Constant(radiance) => SkyKind::Constant(*radiance),
             scene::SkyRadiance::Image { width, map, texels } => {
                 let weights: Vec<f32> = texels.iter().map(|t| t.iter().sum()).collect();
+                let sum: f64 = weights.iter().copied().map(f64::from).sum();
+                let greatest = weights.iter().fold(0.0, |most: f32, &x| most.max(x));
+                is_soft &= f64::from(greatest) * weights.len() as f64 <= SOFT * sum;
                 let mut table = vec![0.0; ImageEnvironment::buffer(*width, texels.len() / width)];
                 ImageEnvironment::build(&weights, *width, *map, &mut table)
                     .expect("the scene reader has checked the texels");
                 SkyKind::Image { width: *width, map: *map, texels: texels.clone(), table }
             }
         };
-        let mut own = Self { rows: environment.to_light, kind, moments: Moments::default(), portals: None, sun: None };
+        let mut own =
+            Self { rows: environment.to_light, kind, moments: Moments::default(), portals: None, sun: None, is_soft };
         own.sun = environment.sun.map(|disk| SunBefore::new(disk, own.flux()));
         own.portals = SkyPortals::new(&environment.portals, own.texel(), |w| own.sum(w));
         if own.portals.is_none() {

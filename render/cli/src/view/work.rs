@@ -164,7 +164,7 @@ impl Worker<'_> {
                 let Some(known) = passed else { continue };
                 done.version += 1;
                 let end = self.end(known, wishes.crop);
-                let picture = current.picture(&subject, done.version, end);
+                let picture = current.picture(done.version, end);
                 let mut state = shared.lock();
                 state.pictures.retain(|picture| picture.way != wishes.way);
                 state.pictures.extend(picture);
@@ -356,13 +356,12 @@ impl Kept {
     }
 
     /// What to show of it, once it has had a pass.
-    fn picture(&self, subject: &Subject, version: u64, end: Option<String>) -> Option<Picture> {
+    fn picture(&self, version: u64, end: Option<String>) -> Option<Picture> {
         let Progress { film, error, seconds, .. } = self.refined.known()?;
-        let settings = Settings { technique: self.way.technique, ..subject.settings };
         let samples: f64 = film.pixels.iter().map(|pixel| f64::from(pixel.samples)).sum();
         Some(Picture {
             way: self.way,
-            chosen: subject.world.view(&settings).technique(),
+            chosen: self.refined.settings().technique,
             film: Arc::new(film.clone()),
             version,
             spp: samples / film.pixels.len() as f64,

@@ -196,15 +196,35 @@ fn ended(folder: &Folder, signal: &str, code: i32, more: &[&str], ready: impl Fn
 #[test]
 fn an_interruption_says_what_is_on_disk() {
     let folder = Folder::new();
+    let part = |name: &str| etendue_render::film::image::read_exr(&folder.path(name)).unwrap();
+    let names = ["a-partial.exr", "a-partial.png"];
     for (signal, code) in [("-INT", 130), ("-TERM", 143), ("-HUP", 129)] {
-        let error = ended(&folder, signal, code, &["--spp", "65536"], || true);
-        assert_eq!(error, "interrupted: nothing was written; a.exr does not exist\n");
-        assert!(folder.names().is_empty());
+        let error = ended(&folder, signal, code, &["--spp", "4096"], || true);
+        assert!(error.starts_with("interrupted: a-partial.exr and a-partial.png have "), "{error}");
+        assert!(
+            error.contains(" % of the samples") && error.ends_with("; nothing was written; a.exr does not exist\n"),
+            "{error}"
+        );
+        assert_eq!(folder.names(), names);
+        // as bright as the whole, or black where nothing was rendered, and of no known error there
+        let picture = part("a-partial.exr");
+        let lit = picture.radiance.iter().filter(|pixel| pixel[1] > 0.0).count();
+        let known = picture.variance.unwrap().iter().filter(|v| v[1].is_finite()).count();
+        assert!(lit > 0 && known <= lit && known < 64 * 64, "{lit} {known}");
+        names.iter().for_each(|name| fs::remove_file(folder.path(name)).unwrap());
     }
     folder.write("a.exr", "an image");
-    let error = ended(&folder, "-INT", 130, &["--spp", "65536"], || true);
-    assert_eq!(error, "interrupted: nothing was written; a.exr is unchanged\n");
+    folder.write("a-partial.png", "another");
+    let error = ended(&folder, "-INT", 130, &["--spp", "4096", "--sampler", "sobol"], || true);
+    assert!(
+        error.contains("a-partial-2.exr and a-partial-2.png have ") && error.ends_with("; a.exr is unchanged\n"),
+        "{error}"
+    );
+    assert!(error.contains("pixels without any are black"), "{error}");
     assert_eq!(fs::read(folder.path("a.exr")).unwrap(), b"an image");
+    for name in ["a-partial.png", "a-partial-2.exr", "a-partial-2.png"] {
+        fs::remove_file(folder.path(name)).unwrap();
+    }
     // a later pass
     let first = || folder.names().contains(&"a.png".to_owned());
     let error = ended(&folder, "-TERM", 143, &["--time", "120"], first);
@@ -213,6 +233,61 @@ fn an_interruption_says_what_is_on_disk() {
     let image = etendue_render::film::image::read_exr(&folder.path("a.exr")).unwrap();
     assert!(image.variance.unwrap().iter().flatten().all(|v| v.is_finite()));
     assert_eq!(folder.names(), ["a.exr", "a.png"]);
+}
+
+/// A rendering does not replace what another program has written since it began, and loses nothing.
+#[cfg(target_os = "linux")]
+#[test]
+fn two_renderings_do_not_share_a_file() {
+    let folder = Folder::new();
+    let child = folder.spawn(&["render", "quads", "--size", "128x128", "--spp", "64", "--threads", "1", "-o", "a.exr"]);
+    until_it_renders(&child);
+    folder.render("quads", &["-o", "a.exr"]);
+    let first = fs::read(folder.path("a.exr")).unwrap();
+    let output = child.wait_with_output().unwrap();
+    let error = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.code() == Some(2) && output.stdout.is_empty(), "{error}");
+    assert!(
+        error.contains("a.exr: another program has written this file meanwhile: this image is in a-2.exr and a-2.png"),
+        "{error}"
+    );
+    assert_eq!(fs::read(folder.path("a.exr")).unwrap(), first);
+    assert_eq!(etendue_render::film::image::read_exr(&folder.path("a-2.exr")).unwrap().width, 128);
+    assert_eq!(folder.names(), ["a-2.exr", "a-2.png", "a.exr", "a.png"]);
+}
+
+/// Scenes of the same name and of other kinds do not replace each other's images unasked, nor what is no image of theirs.
+#[test]
+fn scenes_of_one_name_keep_their_images() {
+    let folder = Folder::new();
+    folder.write("room.pbrt", scene(""));
+    let everything = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/gltf/everything.gltf");
+    fs::copy(everything, folder.path("room.gltf")).unwrap();
+    folder.render("room.pbrt", &[]);
+    folder.render("room.pbrt", &["--seed", "2"]);
+    let own =
+        "room.exr: this file has an image that may be of room.pbrt instead of room.gltf, and is not replaced unasked";
+    folder.refuse("room.gltf", &[], &[own, "choose a name with -o"]);
+    // alone, a scene may change
+    fs::remove_file(folder.path("room.gltf")).unwrap();
+    folder.write("room.pbrt", scene("# changed"));
+    folder.render("room.pbrt", &[]);
+    folder.write("dining.pbrt", scene(""));
+    fs::copy(folder.path("room.exr"), folder.path("dining.exr")).unwrap();
+    folder.refuse("dining.pbrt", &[], &["dining.exr: this file has an image of room, and"]);
+    folder.write("room.exr", "a treasure");
+    folder.refuse("room.pbrt", &[], &["room.exr: this file has no image of this scene"]);
+    folder.render("room.pbrt", &["-o", "room.exr"]);
+}
+
+/// Where the image cannot be written, the scene is not even read.
+#[test]
+fn a_name_is_refused_before_the_scene_is_read() {
+    let folder = Folder::new();
+    folder.write("bad.pbrt", "Nonsense");
+    folder.refuse("bad.pbrt", &["-o", "a.jpg"], &["--output a.jpg: the name must end in .exr"]);
+    folder.refuse("bad.pbrt", &["-o", "none/a.exr"], &["the folder none does not exist"]);
+    folder.refuse("bad.pbrt", &["-o", "a.exr"], &["bad.pbrt:1: "]);
 }
 
 #[cfg(target_os = "linux")]
