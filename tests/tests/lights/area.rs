@@ -10,17 +10,17 @@ use etendue_judge::packets::Coordinates;
 use etendue_oracle::{V3, along, basis, cross, dot, gauss_legendre, length, narrow, sub, unit};
 
 /// Mean of f over an n × n grid of `u`.
-pub(crate) fn mean(n: usize, f: impl Fn(Vec2<f64>) -> f64) -> f64 {
+fn mean(n: usize, f: impl Fn(Vec2<f64>) -> f64) -> f64 {
     let at = |i: usize| (i as f64 + 0.5) / n as f64;
     (0..n * n).map(|i| f(Vec2::new(at(i % n), at(i / n)))).sum::<f64>() / (n * n) as f64
 }
 /// Irradiance of one sample, where the radiance is 1 on the emitting side.
-pub(crate) fn irradiance(s: &LightSample<f64>, n: V3) -> f64 {
+fn irradiance(s: &LightSample<f64>, n: V3) -> f64 {
     let cos = dot(s.direction.at(0), n).max(0.0);
     if s.pdf > 0.0 && s.emits { cos / s.pdf } else { 0.0 }
 }
 /// Mean irradiance of samples from an n × n grid of `u`.
-pub(crate) fn flux(n: usize, sampler: &dyn LightSampler<f64>, normal: V3) -> f64 {
+fn flux(n: usize, sampler: &dyn LightSampler<f64>, normal: V3) -> f64 {
     mean(n, |u| irradiance(&sampler.sample(u), normal))
 }
 fn origin() -> Vec3<f64> {
