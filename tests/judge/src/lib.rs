@@ -33,7 +33,6 @@ pub mod generators;
 pub mod light_tree;
 pub mod lights;
 #[cfg(feature = "checks")]
-#[cfg(feature = "checks")]
 pub mod numbers;
 #[cfg(feature = "occlusion")]
 pub mod occlusion;
@@ -51,3 +50,4 @@ pub mod suite;
 pub mod textbook;
 pub mod tolerances;
 pub mod truths;
+mod warps;
