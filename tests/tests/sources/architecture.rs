@@ -234,7 +234,6 @@ fn imports_are_found() {
         ("render/cli", "render/cli", "render", "output"),
         ("tests/oracle", "tests/oracle", "curves", "quadrature"),
         ("tests/judge", "tests/judge", "suite", "properties"),
-        ("benches/routines", "benches/routines", "rays", "baseline"),
     ] {
         let levels = packages.entry(package).or_insert_with(|| levels(package));
         assert!(levels[level][from].contains(to), "{level}: {from} → {to}");
