@@ -151,6 +151,33 @@ impl Polyhedron {
     pub const fn deviation(&self) -> f64 {
         self.deviation
     }
+    /// By how much its outline may be displaced as seen from a patch, in scene units.
+    ///
+    /// That is the [deviation](Self::deviation), and more only from points between an edge and the plane of a face that does not quite
+    /// contain it. Where fewer than one point of the patch in 10⁴ are, they do not count, nor do those that are nearer to the line of the edge
+    /// than 1e−2 of the size of the patch.
+    pub(crate) fn displacement(&self, patch: &Hull) -> f64 {
+        let of_edge = |edge: &Edge| {
+            let [a, b] = edge.ends;
+            let (along, from) = (unit(b - a), patch.center - a);
+            let far = from.length().max((patch.center - b).length()) + patch.extent;
+            let is_between = |face: usize| {
+                let (normal, offset) = self.planes[face];
+                let gap = (normal.dot(a) - offset).abs() + normal.dot(along).abs() * far;
+                let is_near = (normal.dot(patch.center) - offset).abs() <= gap + patch.extent;
+                is_near && {
+                    let [least, most] = patch.range(normal).map(|x| x - offset);
+                    least <= gap && most >= -gap && 2.0 * gap > 1e-4 * (most - least)
+                }
+            };
+            if !edge.faces.into_iter().any(is_between) {
+                return 1.0;
+            }
+            let apart = along.cross(from).length() - patch.extent;
+            SQRT_2 * far / apart.max(1e-2 * patch.extent)
+        };
+        self.deviation * self.edges.iter().map(of_edge).fold(1.0, f64::max)
+    }
     /// See [`Hull::stretch`].
     pub(crate) fn stretch(&self, patch: &Hull) -> f64 {
         // the spheres about edges, which are chords of a sphere, end at √2 of its radius

@@ -134,15 +134,15 @@ impl Solid {
         let convex = turns.iter().all(|&x| x > 0.0) || turns.iter().all(|&x| x < 0.0);
         (flat && convex).then_some(Self::Polygon { corners, count: 4, deviation })
     }
-    /// The angle in radians by which its outline may be displaced as seen from a patch: next to it, or to the line of an edge, from most of
-    /// the patch.
+    /// The angle in radians by which its outline may be displaced as seen from a patch: next to it, from points that are farther from it than
+    /// the size of the patch. See [`Polyhedron::displacement`].
     pub(crate) fn displacement(&self, patch: &Hull) -> f64 {
         let (center, extent, deviation) = match self {
             Self::Polygon { corners, count, deviation } if *deviation > 0.0 => {
                 let hull = Hull::new(&corners[..*count], 0.0);
                 (hull.center, hull.extent, *deviation)
             }
-            Self::Polyhedron(body) if body.deviation > 0.0 => (body.center, body.extent, body.deviation),
+            Self::Polyhedron(body) if body.deviation > 0.0 => (body.center, body.extent, body.displacement(patch)),
             _ => return 0.0,
         };
         deviation / ((center - patch.center).length() - extent - patch.extent).max(patch.extent)
