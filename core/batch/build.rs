@@ -70,6 +70,12 @@ fn main() {
             )
             .env_remove("RUSTFLAGS")
             .env_remove("CARGO_MAKEFLAGS");
+        // settings for the whole build, such as more than one codegen unit, of which each would have an object of its own
+        for (name, _) in std::env::vars_os() {
+            if name.to_string_lossy().starts_with("CARGO_PROFILE_RELEASE_") {
+                cargo.env_remove(name);
+            }
+        }
         (cargo.spawn().unwrap_or_else(|e| panic!("cannot run {cargo:?}: {e}")), object)
     };
     // both at once: each is one crate, which takes one thread

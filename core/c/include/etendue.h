@@ -14,8 +14,9 @@
 //
 // Rules for all functions:
 // - Nothing is allocated, nothing is kept between calls, and all functions may be called from any thread.
-// - Finite input gives finite output. Degenerate input (a light without extent, a point exactly in the plane of a flat light) gives pdf 0. A point
-//   that was computed on a light may be in front of it through rounding: see etendue_on_surface.
+// - Finite input, with finite vectors between points and unit normals, gives finite output. Degenerate input (a light without extent, a
+//   point exactly in the plane of a flat light) gives pdf 0. A point that was computed on a light may be in front of it through rounding:
+//   see etendue_on_surface.
 // - Every processor gives the same bits. A batch gives the bits of its elements one by one.
 // - Batches are structures of arrays: one column per coordinate, of n elements each, without demands on alignment. An output may be
 //   NULL where it is not wanted, and may be the same column as an input.

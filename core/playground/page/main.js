@@ -213,6 +213,7 @@ class App {
     for (const way of new Set([...shown, chosen])) {
       way.draw(MOST, library.u);
       evaluate(way, MOST, view.n);
+      if (!draft) time(way, library.u);
     }
     const options = { ...state, colors: this.colors, draft };
     const probe = this.probe(view);

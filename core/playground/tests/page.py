@@ -71,6 +71,8 @@ class Test:
 
 def spoken(text):
     """The number that a text of the page means."""
+    if text.endswith(" %"):
+        return spoken(text[:-2]) / 100
     raised = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--")
     return float(re.sub(r"·10(.*)", r"e\1", text.translate(raised)))
 

@@ -21,6 +21,8 @@ const LAST: f32 = 1.0 - 1.0 / 16_777_216.0;
 pub(crate) enum FieldKind {
     /// A number.
     Number,
+    /// The radius of a light, which is not negative.
+    Radius,
     /// A number in [0, 1).
     Unit,
     /// So many numbers on the last axis.
@@ -43,7 +45,7 @@ impl FieldKind {
     /// How many columns it takes.
     pub(crate) fn width(self) -> usize {
         match self {
-            Self::Number | Self::Unit | Self::Index => 1,
+            Self::Number | Self::Radius | Self::Unit | Self::Index => 1,
             Self::Units => 2,
             Self::Row(width) => width,
             Self::Vertex | Self::Direction | Self::Normal => 3,
@@ -57,7 +59,7 @@ impl FieldKind {
     /// The number of its own axes.
     fn rank(self) -> usize {
         match self {
-            Self::Number | Self::Unit | Self::Index => 0,
+            Self::Number | Self::Radius | Self::Unit | Self::Index => 0,
             Self::Corners => 2,
             _ => 1,
         }
@@ -165,6 +167,11 @@ impl<'py> Argument<'py> {
         };
         if let FieldKind::Direction | FieldKind::Normal = self.kind {
             self.check_length(&columns, shape)?;
+        }
+        if self.kind == FieldKind::Radius
+            && let Some(at) = first(&columns[0], |x| *x < 0.0)
+        {
+            refuse!("{} must be at least 0, not {}", self.index(at, shape, None), columns[0][at]);
         }
         Ok(columns)
     }

@@ -19,6 +19,7 @@ mod tree;
 mod warps;
 
 use etendue_batch::{Batch, Level};
+use pyo3::exceptions::PyImportError;
 use pyo3::prelude::*;
 
 /// The instructions in use: "v4" for x86-64-v4 (AVX-512), "v3" for x86-64-v3 (AVX2 and fused multiply-add), "build" for those that every
@@ -28,8 +29,29 @@ fn level() -> &'static str {
     match Batch::new().level() {
         Level::V4 => "v4",
         Level::V3 => "v3",
+        // a wheel for one machine is compiled for its processor
+        Level::Build if cfg!(all(target_feature = "avx512f", target_feature = "avx512vl")) => "v4",
+        Level::Build if cfg!(all(target_feature = "avx2", target_feature = "fma")) => "v3",
         Level::Build => "build",
     }
+}
+
+/// Fails on a processor that lacks instructions for which the package was compiled: `pip` compiles for that of its machine.
+fn check_processor() -> PyResult<()> {
+    #[cfg(target_arch = "x86_64")]
+    {
+        macro_rules! need {
+            ($($feature:tt)*) => {
+                $(if cfg!(target_feature = $feature) && !std::arch::is_x86_feature_detected!($feature) {
+                    return Err(PyImportError::new_err(concat!(
+                        "etendue was compiled for a processor with ", $feature, ", which this one lacks: install it again on this machine"
+                    )));
+                })*
+            };
+        }
+        need!("avx" "avx2" "fma" "avx512f" "avx512bw" "avx512cd" "avx512dq" "avx512vl");
+    }
+    Ok(())
 }
 
 /// Light sampling: maps of random numbers to directions, their densities and inverses, over numpy arrays of single precision.
@@ -44,6 +66,7 @@ fn level() -> &'static str {
 #[pymodule]
 #[pyo3(name = "etendue")]
 fn extension(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    check_processor()?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_function(wrap_pyfunction!(level, module)?)?;
     samples::add(module)?;

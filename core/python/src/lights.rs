@@ -26,6 +26,12 @@ macro_rules! prepared {
 }
 /// The kind of an argument.
 macro_rules! kind {
+    (radius: number) => {
+        FieldKind::Radius
+    };
+    ($name:ident: $kind:ident) => {
+        kind!($kind)
+    };
     (number) => {
         FieldKind::Number
     };
@@ -115,7 +121,7 @@ macro_rules! light {
         with_each! { $light {
             #[new]
             fn new($($argument: &Object<'_>),+) -> PyResult<Self> {
-                Ok(Self { numbers: numbers(&[$((stringify!($argument), kind!($kind), $argument)),+])? })
+                Ok(Self { numbers: numbers(&[$((stringify!($argument), kind!($argument: $kind), $argument)),+])? })
             }
             $($(#[$doc])*
             fn $by(&self $(, $place: &Object<'_>)*) -> PyResult<Sampler> {
@@ -140,7 +146,7 @@ macro_rules! light {
         /// technique: "area" for `by_area`, and so on. By "reflection", which spheres and flat lights have, the arguments of a
         /// `Reflection` are needed, too: roughnesses alpha (...) and unit vectors view (..., 3) towards the viewer. `fields` and `out` are those of `Sampler.sample`.
         () [staticmethod] ($($argument),+) (n, alpha, view) (by: &str = $default)
-        |rows| Self::each(by, rows, &[$((stringify!($argument), kind!($kind), $argument)),+]) }
+        |rows| Self::each(by, rows, &[$((stringify!($argument), kind!($argument: $kind), $argument)),+]) }
     };
 }
 etendue::techniques!(lights! {});

@@ -17,6 +17,8 @@ def test_any_numbers_at_all(light, by):
         if light in (et.Disk, et.SpotLight, *DISTANT):
             k = 0 if light in DISTANT else 1
             fields[k] = rng.choice(np.float32([[0, 0, 1], [0, 0, 0], [np.nan, 0, 0], [0.6, 0, 0.8]]), count)
+        if light in (et.Sphere, et.Disk):
+            fields[-1] = np.abs(fields[-1])
         p = rng.choice(special, (count, 3))
         s = light.sample_each(*fields, p=p, u=rng.random((count, 2)), by=by, **({"n": [0, 0, 1]} | SURFACES.get(by, {})))
         finite = np.isfinite(p).all(axis=1)
@@ -136,6 +138,9 @@ ASKED = (SAMPLER.pdf, SAMPLER.pdf_of_hit, SAMPLER.hit, SAMPLER.invert)
             r"do not agree: p \(3, 3\), u \(4, 2\)",
         ),
         (lambda: et.Sphere([0, 0, 0], [1, 2]), ValueError, r"radius must be one number, not \(2,\)"),
+        (lambda: et.Sphere([0, 0, 0], -1), ValueError, "radius must be at least 0, not -1"),
+        (lambda: et.Sphere.sample_each([0, 2, 0], [1, -0.5], p=P, u=[0.5, 0.5]), ValueError, r"radius\[1\] must be at least 0, not -0.5"),
+        (lambda: et.Disk([0, 0, 0], [0, 0, 1], -1), ValueError, "radius must be at least 0, not -1"),
         (lambda: et.Disk([0, 0, 0], [0, 0, 2], 1), ValueError, "normal must be a unit vector"),
         (lambda: et.Polygon([[0, 0, 0], [1, 0, 0]]), ValueError, r"corners must have the shape .*3 to 8.*\(2, 3\)"),
         (lambda: et.Polygon(np.zeros((9, 3))), ValueError, r"\(9, 3\)"),

@@ -41,6 +41,12 @@ class View {
   async load() {
     const names = [nameOf(this.status.way), this.other];
     for (const name of this.pixels.keys()) if (!names.includes(name)) this.pixels.delete(name);
+    const { reference } = this.status;
+    if (reference && this.other === reference && !this.pixels.has(reference)) {
+      const pixels = await receive(null);
+      if (pixels) this.pixels.set(reference, Object.assign(pixels, { name: reference }));
+      this.frame();
+    }
     for (const { way, version } of this.status.pictures) {
       const name = nameOf(way);
       const known = this.pixels.get(name);
@@ -112,7 +118,8 @@ class View {
   }
   takeOthers(pictures, shown) {
     const names = pictures.map((p) => nameOf(p.way)).sort();
-    const others = ["", ...names.filter((name) => name !== shown)];
+    const { reference } = this.status;
+    const others = ["", ...(reference ? [reference] : []), ...names.filter((name) => name !== shown)];
     if (!others.includes(this.other)) this.other = "";
     if (this.others !== others.join("|")) {
       this.others = others.join("|");
@@ -150,7 +157,9 @@ class View {
     const gain = [1 / status.exposure, 2 ** stops];
     // both have the same colours
     const all = [pixels, other].filter((p) => p);
-    const range = layer === "radiance" ? [0, 1] : compares ? widest(pixels, other, layer === "relative") : all.map((p) => ends(p, layer)).reduce((a, b) => [Math.min(a[0], b[0]), Math.max(a[1], b[1])]);
+    const asks = (id, x) => (Number(byId(id).value) > 0 ? Number(byId(id).value) : x);
+    const found = layer === "radiance" ? [0, 1] : compares ? widest(pixels, other, layer === "relative") : all.map((p) => ends(p, layer)).reduce((a, b) => [Math.min(a[0], b[0]), Math.max(a[1], b[1])]);
+    const range = layer in MAPS ? [asks("low", found[0]), asks("high", found[1])] : found;
     this.first.update(pixels, layer, gain, range, compares && other);
     this.isSplit = Boolean(other) && !compares;
     if (this.isSplit) this.second.update(other, layer, gain, range);
@@ -158,9 +167,10 @@ class View {
     draw(byId("image"), this.lens, this.first.canvas, this.isSplit && this.second.canvas, byId("wipe").value / 100, all.map((p) => p.name), crop, cursor);
     byId("legend").textContent = compares && !other ? "Choose an image B to compare with." : "";
     byId("bar").hidden = layer === "radiance";
+    byId("range").hidden = !(layer in MAPS);
     if (layer !== "radiance") {
       const scale = scaleOf(layer, range, status.sensor);
-      bar(byId("bar"), scale);
+      bar(byId("bar"), scale, layer in MAPS && this.first.counts);
       byId("bar").setAttribute("aria-label", `${scale.title}: from ${scale.format(scale.at(0))} to ${scale.format(scale.at(1))}`);
     }
     this.read(all);
@@ -207,7 +217,7 @@ class View {
 
   bind() {
     for (const id of ["technique", "sampler"]) byId(id).addEventListener("change", () => this.wish({ [id]: byId(id).value }));
-    for (const id of ["layer", "exposure", "wipe"]) byId(id).addEventListener("input", () => this.frame());
+    for (const id of ["layer", "exposure", "wipe", "low", "high"]) byId(id).addEventListener("input", () => this.frame());
     byId("other").addEventListener("change", () => {
       this.other = byId("other").value;
       byId("wipe").disabled = !this.other;
@@ -228,6 +238,22 @@ class View {
       canvas.classList.toggle("turns", this.isTurning);
     });
     click("still", () => this.wish({ orbit: null }));
+    click("camera", async () => {
+      const { camera } = this.status;
+      const copied = await navigator.clipboard.writeText(camera).then(() => "Copied", () => "Not copied, but here it is");
+      this.say(`${copied}:\n${camera}`);
+    });
+    click("worst", () => {
+      const pixels = this.last;
+      if (!pixels) return;
+      if (this.ranked !== pixels) Object.assign(this, { ranked: pixels, rank: 0, worst: worst(pixels) });
+      const i = this.worst[this.rank++ % this.worst.length];
+      if (i === undefined) return;
+      this.cursor = [i % pixels.width, Math.floor(i / pixels.width)];
+      if (this.lens.zoom < 8 * ratio()) this.lens.scale(byId("image"), (8 * ratio()) / this.lens.zoom, this.lens.toCanvas(byId("image"), this.cursor));
+      this.lens.reveal(byId("image"), this.cursor);
+      this.frame();
+    });
     const canvas = byId("image");
     const middle = () => [canvas.width / 2, canvas.height / 2];
     click("visible", () => {

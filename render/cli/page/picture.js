@@ -1,8 +1,8 @@
 // The pixels of an image, and the canvas that shows them.
 
-/** The image of a way as the server has it now, or null if it has none yet. */
-async function receive({ technique, sampler }) {
-  const answer = await fetch(`image?technique=${technique}&sampler=${sampler}`);
+/** The image of a way as the server has it now, or of the reference; null if there is none yet. */
+async function receive(way) {
+  const answer = await fetch(way ? `image?technique=${way.technique}&sampler=${way.sampler}` : "reference");
   if (answer.status === 404 || answer.status === 503) return null;
   if (!answer.ok) throw new Error(`${answer.status}`);
   const buffer = await answer.arrayBuffer();
@@ -20,17 +20,38 @@ async function receive({ technique, sampler }) {
 
 /** Variance of a pixel's mean: the mean over the channels. */
 const spread = ({ variance }, i) => (variance[3 * i] + variance[3 * i + 1] + variance[3 * i + 2]) / 3;
-/** The least and greatest number of a layer, for its colours. Variances that differ by more than 10⁶ have the same colour. */
+const brightness = ({ mean }, i) => RED * mean[3 * i] + GREEN * mean[3 * i + 1] + BLUE * mean[3 * i + 2];
+/** The mean of an image over pixels and channels, once for each of its versions. */
+const whole = ({ mean }) => mean.reduce((sum, x) => sum + x, 0) / mean.length;
+/** The number of a pixel that each map shows, in colours by its logarithm. */
+const MAPS = {
+  samples: ({ samples }) => (i) => samples[i],
+  variance: (pixels) => (i) => spread(pixels, i),
+  error: (pixels) => {
+    pixels.whole ??= whole(pixels);
+    return (i) => Math.sqrt(spread(pixels, i)) / pixels.whole;
+  },
+  luminance: (pixels) => (i) => brightness(pixels, i),
+  red: ({ mean }) => (i) => mean[3 * i],
+  green: ({ mean }) => (i) => mean[3 * i + 1],
+  blue: ({ mean }) => (i) => mean[3 * i + 2],
+};
+/** The least and greatest number of a map, for its colours. Numbers that differ by more than 10⁶ have the same colour. */
 function ends(pixels, layer) {
   let [low, high] = [Infinity, 0];
+  const of = MAPS[layer](pixels);
   const { length } = pixels.samples;
   for (let i = 0; i < length; i++) {
-    const x = layer === "samples" ? pixels.samples[i] : spread(pixels, i);
-    if (x < low && (layer === "samples" || x > 0)) low = x;
+    const x = of(i);
+    if (x < low && x > 0) low = x;
     if (x > high && x < Infinity) high = x;
   }
-  if (!(high > 0)) return [0, 1];
-  return layer === "samples" ? [low, high] : [Math.max(low, high * 1e-6), high];
+  return high > 0 ? [Math.max(low, high * 1e-6), high] : [1, 1];
+}
+/** Pixels from the greatest known variance down. */
+function worst(pixels) {
+  const known = [...pixels.samples.keys()].filter((i) => Number.isFinite(spread(pixels, i)));
+  return known.sort((a, b) => spread(pixels, b) - spread(pixels, a)).slice(0, 100);
 }
 
 /** A − B at a pixel, the mean over the channels; or that over the mean of B. */
@@ -83,15 +104,21 @@ class Drawn {
     }
   }
   map(words, pixels, layer, [low, high]) {
-    const isCount = layer === "samples";
-    const scale = isCount ? (high > low ? 1 / (high - low) : 0) : high > low ? 1 / Math.log(high / low) : 0;
+    const of = MAPS[layer](pixels);
+    const scale = high > low ? 1 / Math.log(high / low) : 0;
+    // how many pixels have each part of the colours
+    this.counts = new Float64Array(BINS);
     for (let i = 0; i < words.length; i++) {
-      const x = isCount ? pixels.samples[i] : spread(pixels, i);
-      const t = scale === 0 ? 0.5 : isCount ? (x - low) * scale : Math.log(x / low) * scale;
-      words[i] = Number.isFinite(x) ? heat(t) : NONE;
+      const x = of(i);
+      const t = scale === 0 ? 0.5 : Math.log(x / low) * scale;
+      const isKnown = Number.isFinite(x) && x >= 0;
+      words[i] = isKnown ? heat(t) : NONE;
+      if (isKnown) this.counts[Math.max(0, Math.min(BINS - 1, Math.floor(t * BINS)))]++;
     }
   }
 }
+/** Bars of a histogram. */
+const BINS = 96;
 
 const ratio = () => window.devicePixelRatio || 1;
 /** Gives a canvas the pixels of its place. */

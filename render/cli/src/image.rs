@@ -62,6 +62,19 @@ pub(crate) struct ImageOptions {
     strict: bool,
 }
 
+/// Bytes that an image takes for each pixel while it is rendered and written, at most: with the sampler adaptive, and with others.
+const BYTES: [u64; 2] = [440, 90];
+
+/// Fails at once if the system does not give the memory that an image of this size takes.
+fn check_memory(settings: &Settings) -> Result<(), String> {
+    let Settings { width, height, sampler, .. } = *settings;
+    let bytes = u64::from(width) * u64::from(height) * BYTES[usize::from(sampler != Sampler::Adaptive)];
+    let fits = usize::try_from(bytes).is_ok_and(|bytes| Vec::<u8>::new().try_reserve_exact(bytes).is_ok());
+    let gigabytes = bytes as f64 / 1e9;
+    let what = || format!("an image of {width}x{height} takes about {gigabytes:.1} GB, which the system does not give");
+    if fits { Ok(()) } else { Err(what()) }
+}
+
 /// Parses `--sets`.
 fn sets(text: &str) -> Result<u32, String> {
     [1, 2, 4].into_iter().find(|n| text == n.to_string()).ok_or_else(|| "must be 1, 2 or 4".to_owned())
@@ -103,6 +116,7 @@ impl ImageOptions {
             sets,
             seed: self.seed,
         };
+        check_memory(&settings)?;
         Ok((scene, settings))
     }
 

@@ -16,6 +16,7 @@ mod view;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use etendue_laboratory::chart;
+use etendue_laboratory::interrupt::survive_limits_of_files;
 use etendue_laboratory::options::say;
 use std::any::TypeId;
 use std::error::Error;
@@ -56,7 +57,7 @@ enum Command {
     Compare(compare::Options),
     /// Measure the error and time of techniques and samplers, and write a report with charts
     ///
-    /// Example: `etendue chart studio --quick` finds the best technique for a scene in less than three minutes.
+    /// Example: `etendue chart studio --quick` says in a minute how many seconds an error of 1 % takes, and by which technique.
     Chart(chart::Options),
     /// List the built-in scenes, techniques, choices of a light, samplers and sensors, or the scenes and cameras of a file
     ///
@@ -80,6 +81,7 @@ fn main() -> ExitCode {
         ));
         return ExitCode::from(3);
     }
+    survive_limits_of_files();
     match run(arguments().command) {
         Ok(()) => ExitCode::SUCCESS,
         // the reader has closed the pipe, as `head` does: this ends the program as SIGPIPE ends others, without a message

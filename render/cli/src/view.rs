@@ -7,7 +7,7 @@
 //! client that does not read holds one of four images for at most 20 seconds. Each technique and sampler has an image of its own, which is
 //! kept while another one is shown, up to 1 GiB of them (`view/work.rs`).
 //!
-//! Samples go to the image that is shown, in passes of about a quarter of the time so far and at most a second, unless the least pass of the
+//! Samples go to the image that is shown, in passes of about a quarter of the time so far and at most 0.4 s, unless the least pass of the
 //! sampler takes longer. A wish for another image or part ends the pass, whose samples are lost.
 
 mod answer;
@@ -26,13 +26,16 @@ use crate::progress::bar;
 use crate::render::{fraction, seconds};
 use clap::Args;
 use etendue_laboratory::options::{out, pool, say, whole};
+use etendue_render::Settings;
 use etendue_render::drive::progressive::{Goal, Refinement};
+use etendue_render::film::image::{Picture, read_exr};
+use etendue_render::film::{Film, Pixel};
 use etendue_render::sampler::default_sampler;
 use server::Server;
 use state::{Shared, Way};
 use std::error::Error;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use work::{Reading, Worker};
 
@@ -52,12 +55,32 @@ pub(crate) struct Options {
     /// Refine an image until its estimated error (relative RMS) is at most this, such as 0.01 or 1%
     #[arg(long, value_name = "TARGET", value_parser = fraction)]
     error: Option<f64>,
+    /// Offer this image for comparison on the page; it must have the size of the view
+    #[arg(long, value_name = "FILE.exr")]
+    reference: Option<PathBuf>,
     /// Serve the page on this port of 127.0.0.1, or on the next one that is free
     #[arg(long, value_name = "N", default_value_t = 7450, value_parser = whole::<u16>(1..=65535))]
     port: u16,
     /// Print the address of the page, and open no browser
     #[arg(long)]
     no_open: bool,
+}
+
+/// Reads an image to compare with.
+fn reference(path: &Path, settings: &Settings) -> Result<(String, Arc<Film>), Box<dyn Error>> {
+    let Picture { width, height, radiance, variance } = read_exr(path)?;
+    let Settings { width: w, height: h, .. } = *settings;
+    if [width, height] != [w as usize, h as usize] {
+        let name = path.display();
+        return Err(format!(
+            "--reference {name}: it has {width}x{height} pixels, the view {w}x{h}: --size changes that"
+        )
+        .into());
+    }
+    let unknown = vec![[f32::INFINITY; 3]; radiance.len()];
+    let both = radiance.into_iter().zip(variance.unwrap_or(unknown));
+    let pixels = both.map(|(mean, variance)| Pixel { mean, variance, samples: 0 }).collect();
+    Ok((format!("reference {}", path.display()), Arc::new(Film { width: w, height: h, pixels })))
 }
 
 /// Serves the page and renders, until the program is interrupted.
@@ -73,12 +96,13 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let sampler = image.sampler.unwrap_or_else(|| default_sampler(USUAL, settings.sets));
     let plan = Refinement { settings, sampler: Some(sampler), goal };
     plan.check().map_err(|what| format!("--{}: {what}", goal.option()))?;
+    let reference = options.reference.as_ref().map(|path| reference(path, &settings)).transpose()?;
     let inputs = &reading.scene.inputs;
     let output = options.output.as_ref().map(|path| Output::of(path.clone(), inputs)).transpose()?.map(Arc::new);
 
     let server = Server::new(options.port)?;
     let pool = pool(image.threads)?;
-    let shared = Arc::new(Shared::new(Worker::state(Way { technique: settings.technique, sampler })));
+    let shared = Arc::new(Shared::new(Worker::state(Way { technique: settings.technique, sampler }), reference));
     if let Some(output) = &output {
         interrupt.watch(&bar(0, ""), &output.exr);
     }

@@ -146,11 +146,28 @@ def watch_to_the_end(browser):
         assert browser.evaluate("view.lens.zoom") == 2 * zoom
         browser.click("#fit")
         assert browser.evaluate("view.lens.zoom") == zoom
-        for layer in ["variance", "samples"]:
+        for layer in ["error", "luminance", "red", "variance", "samples"]:
             browser.choose("layer", layer)
             number, _ = colors(browser.screenshot("#image"))
             assert number > 20, f"{layer} has {number} colours"
             keep(f"{layer}.png", browser)
+        # colours of a range: what is above has the last one
+        browser.choose("low", "1")
+        browser.choose("high", "2")
+        words = browser.evaluate("[...new Set(new Uint32Array(view.first.image.data.buffer))]")
+        assert len(words) == 1, f"all pixels have more than 2 samples: {words}"
+        browser.choose("low", "")
+        browser.choose("high", "")
+        # the pixel of the greatest variance
+        browser.click("#worst")
+        assert browser.evaluate(
+            "(() => { const v = view.last.variance, at = (i) => v[3 * i] + v[3 * i + 1] + v[3 * i + 2], [x, y] = view.cursor;"
+            " return [...view.last.samples.keys()].every((i) => at(i) <= at(y * 160 + x)); })()"
+        )
+        browser.click("#fit")
+        # where the camera is, for files
+        look, matrix = browser.evaluate("view.status.camera").split("\n")
+        assert re.fullmatch(r"(Scale -1 1 1 )?LookAt( +-?[0-9.]+){9}", look) and len(json.loads(f"{{{matrix}}}")["matrix"]) == 16
         browser.choose("layer", "radiance")
         keep("end.png", browser)
         browser.mouse("mouseMoved", 0, 0)

@@ -1,7 +1,9 @@
 //! Measures the error and time of techniques and samplers, and writes a report with charts.
 
+pub mod answer;
 mod budget;
 pub mod charts;
+pub mod clock;
 pub mod machine;
 pub mod measure;
 pub mod options;
@@ -18,6 +20,7 @@ use crate::interrupt::interrupt;
 use crate::options::{out, say};
 use crate::progress::{bar, duration};
 use budget::{Extent, Trial};
+use clock::Clock;
 use etendue_render::film::files;
 use etendue_render::{Sampler, drive::identity};
 use measure::{ChartedScene, Key, Measurement, Plan, inapplicable};
@@ -30,7 +33,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
-use summary::{Summary, Way};
+use summary::{ERRORS, Summary, Way};
 use table::MeasurementFile;
 
 /// Sets `stop` at this time.
@@ -108,13 +111,14 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     // a short trial tells what fits into the time
     let samplers = options.samplers();
     let begin = Instant::now();
-    let trial = pool.install(|| Trial::new(&scenes, &samplers));
+    let trial = pool.install(|| Trial::new(&scenes, &samplers, options.quick));
     let took = begin.elapsed().as_secs_f64();
     let mut extent = Extent {
         spps: options.spps(),
         replicates: options.replicates.unwrap_or(5),
         sizes: scenes.iter().map(|s| s.size).collect(),
-        reference_spp: options.reference_spp.unwrap_or(if options.quick { 1024 } else { 4096 }),
+        reference_spp: options.reference_spp.unwrap_or(if options.quick { 256 } else { 4096 }),
+        is_race: options.quick,
     };
     let limit = options.limit();
     if let Some(limit) = limit {
@@ -142,14 +146,15 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
             .collect::<Result<Vec<_>, _>>()
             .map_err(|e| e.to_string())
     })?;
-    let plan = Plan { scenes, keys, replicates: extent.replicates, seed: options.seed };
+    let plan = Plan { scenes, keys, replicates: extent.replicates, seed: options.seed, is_race: extent.is_race };
     let rows = render(&plan, options, &pool, stop, &mut notes)?;
+    let clock = Clock::of(&rows, pool.current_num_threads());
     let baseline = Way { technique: options.baseline, choice: options.choices[0], sampler: Sampler::Independent };
     let summaries = (0..plan.scenes.len())
-        .map(|scene| Summary::new(&plan, &rows, scene, baseline))
+        .map(|scene| Summary::new(&plan, &rows, scene, baseline, clock))
         .filter(|s| !s.series.is_empty())
         .collect();
-    Ok(Outcome { plan, rows, summaries, facts, notes })
+    Ok(Outcome { plan, rows, clock, summaries, facts, notes })
 }
 
 /// Renders what the table of the output folder lacks, and notes how much that is.
@@ -171,11 +176,16 @@ fn render(
     }
     let bar = bar(plan.work(&rows), "measuring")?;
     let keep = &mut |scene: &ChartedScene, key: &Key, row: &Measurement| table.append(scene, key, row);
-    pool.install(|| plan.run(&mut rows, keep, stop, &|done| bar.inc(done)).map_err(|e| e.to_string()))?;
+    let left_out =
+        pool.install(|| plan.run(&mut rows, keep, stop, &|done| bar.inc(done)).map_err(|e| e.to_string()))?;
     bar.finish_and_clear();
     let all = plan.keys.len() * plan.replicates as usize;
     let done: usize = rows.values().map(Vec::len).sum();
-    if done < all {
+    if left_out > 0 {
+        let times = measure::HOPELESS;
+        notes.push(format!("{left_out} of {all} images are left out: their series take over {times} times as long as the best for the same error"));
+    }
+    if done + left_out < all {
         notes.push(format!("stopped early: {done} of {all} measurements; run the same command again for the rest"));
     }
     Ok(rows)
@@ -210,34 +220,46 @@ pub fn run(options: &Options, command: &str) -> Result<(), Box<dyn Error>> {
     let stop = interrupt()?;
     let outcome = measure(options, &stop)?;
     let figures: Vec<_> = outcome.summaries.iter().map(charts::all).collect();
-    for (summary, figures) in outcome.summaries.iter().zip(&figures) {
+    let stems: Vec<String> = outcome.summaries.iter().map(|s| stem(&outcome.summaries, &s.scene)).collect();
+    for (stem, figures) in stems.iter().zip(&figures) {
         for figure in figures {
-            let file = format!("{}-{}.svg", stem(&outcome.summaries, &summary.scene), figure.file);
+            let file = format!("{stem}-{}.svg", figure.file);
             files::replace(&options.output.join(file), figure.drawing.file().as_bytes())?;
         }
     }
-    files::replace(&page, report::page(&outcome, &figures, command).as_bytes())?;
+    files::replace(&page, report::page(&outcome, &figures, &stems, command).as_bytes())?;
     print(&outcome, &page)?;
     Ok(())
 }
 
-/// Prints a line for each scene and series, and the notes.
+/// Prints what each scene's series take to reach errors, and the notes.
 fn print(outcome: &Outcome, page: &Path) -> std::io::Result<()> {
     let mut out = out();
     for summary in &outcome.summaries {
-        writeln!(out, "{}", summary.headline())?;
-        for &index in &summary.ranking {
-            let series = &summary.series[index];
-            let gain = summary.gains.iter().find(|g| g.series == index);
-            let gain = gain.map_or_else(|| "?".to_owned(), |g| plot::short(g.gain.value));
+        let sentences = summary.sentences();
+        for sentence in &sentences {
+            writeln!(out, "{}: {sentence}", summary.scene)?;
+        }
+        if sentences.is_empty() {
+            writeln!(out, "{}: no error is large enough to be measured", summary.scene)?;
+        }
+        let [first, second, third] = ERRORS.map(answer::percent);
+        writeln!(out, "  {:36} {first:>16} {second:>16} {third:>16}  slope", "seconds to")?;
+        // those that the page shows, and the baseline
+        let mut shown = summary.leaders();
+        shown.extend(summary.baseline.filter(|b| !shown.contains(b)));
+        for series in shown.iter().map(|index| &summary.series[*index]) {
+            let [first, second, third] =
+                series.reaches.map(|reach| reach.map_or_else(|| "?".to_owned(), |reach| answer::seconds(&reach)));
             let slope = series.slope.as_ref().map_or_else(|| "?".to_owned(), charts::with_interval);
-            writeln!(out, "  {:36} slope {slope:18} efficiency {gain} at {} spp", series.way.title(), summary.spp)?;
+            writeln!(out, "  {:36} {first:>16} {second:>16} {third:>16}  {slope}", series.way.title())?;
         }
     }
     if !outcome.summaries.is_empty() {
-        writeln!(out, "slope: of log error over log samples; ?: not known from so few images")?;
+        let words = "errors are relative RMS; about: beyond the images measured, or from one; slope: of log squared error over log samples; ?: not known from so few images";
+        writeln!(out, "{words}")?;
     }
-    for note in &outcome.notes {
+    for note in outcome.clock.remark().iter().chain(&outcome.notes) {
         writeln!(out, "{note}")?;
     }
     writeln!(out, "wrote {}", page.display())

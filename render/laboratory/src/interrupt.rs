@@ -31,6 +31,18 @@ pub fn on_end(mut handler: impl FnMut(i32) + Send + 'static) -> io::Result<()> {
     Ok(())
 }
 
+/// Makes a file that is longer than the system allows an error of whoever writes it, as on a full disk, and not the end of the program.
+pub fn survive_limits_of_files() {
+    #[cfg(unix)]
+    {
+        use nix::sys::signal::{SigSet, Signal};
+        let mut signals = SigSet::empty();
+        signals.add(Signal::SIGXFSZ);
+        // of a blocked signal, only the error is left; all threads that are started from now on block it, too
+        let _ = signals.thread_block();
+    }
+}
+
 /// The signals that are ignored, each a bit, where Linux tells.
 #[cfg(unix)]
 fn ignored() -> u64 {

@@ -1,12 +1,14 @@
 //! The report of `etendue chart` is read at a glance: a line per scene, the best sampler of each technique, bars in order, notes last.
 
 use etendue_laboratory::chart::charts::{self, Against, Measure};
+use etendue_laboratory::chart::clock::Clock;
 use etendue_laboratory::chart::measure::{ChartedScene, Key, Measurement, Plan, Rows};
 use etendue_laboratory::chart::reference::{Difference, Reference};
-use etendue_laboratory::chart::summary::{Summary, Way};
-use etendue_laboratory::chart::{Outcome, plot, report};
+use etendue_laboratory::chart::summary::{ERRORS, Summary, Way};
+use etendue_laboratory::chart::{Outcome, answer, plot, report};
 use etendue_render::{ChoiceBy, Sampler, Technique, World};
 use std::collections::HashSet;
+use std::sync::atomic::AtomicBool;
 
 const SPP: [u32; 3] = [1, 4, 16];
 const TECHNIQUES: [Technique; 3] = [Technique::Area, Technique::SolidAngle, Technique::MisPower];
@@ -53,15 +55,17 @@ fn outcome(names: &[&str]) -> Outcome {
         };
         rows.insert(*key, (0..3).map(row).collect());
     }
-    let plan = Plan { scenes, keys, replicates: 3, seed: 0 };
+    let plan = Plan { scenes, keys, replicates: 3, seed: 0, is_race: false };
     let baseline = Way { technique: Technique::Area, choice: ChoiceBy::Auto, sampler: Sampler::Independent };
-    let summaries = (0..names.len()).map(|scene| Summary::new(&plan, &rows, scene, baseline)).collect();
-    Outcome { plan, rows, summaries, facts: Vec::new(), notes: vec!["a remark at the end".to_owned()] }
+    let clock = Clock::Wall;
+    let summaries = (0..names.len()).map(|scene| Summary::new(&plan, &rows, scene, baseline, clock)).collect();
+    Outcome { plan, rows, clock, summaries, facts: Vec::new(), notes: vec!["a remark at the end".to_owned()] }
 }
 
 fn page(outcome: &Outcome) -> String {
     let figures: Vec<_> = outcome.summaries.iter().map(charts::all).collect();
-    report::page(outcome, &figures, "etendue chart")
+    let stems: Vec<String> = outcome.summaries.iter().map(|s| s.scene.clone()).collect();
+    report::page(outcome, &figures, &stems, "etendue chart")
 }
 
 /// The identifiers of the series in a chart, and whether each is hidden at first.
@@ -75,41 +79,98 @@ fn series(part: &str) -> Vec<(&str, bool)> {
         .collect()
 }
 
+/// The page begins with the seconds to each error, by definition a power of the time in these data, and with who needs the least.
 #[test]
-fn the_page_begins_with_the_best_series_of_each_scene() {
+fn the_page_begins_with_the_seconds_to_each_error() {
     let outcome = outcome(&["quads", "boxes"]);
     let page = page(&outcome);
     let head = &page[page.find("<h1").unwrap()..page.find("<nav").unwrap()];
-    for (line, summary) in head.split("<li>").skip(1).zip(&outcome.summaries) {
-        // by definition: the least error in the same time, in these data a power of the time
-        let seconds = summary.seconds;
-        let error = |way: &Way| {
-            let Way { technique, choice, sampler } = *way;
-            let key = |spp| Key { scene: 0, technique, choice, sampler, spp };
-            let ((one, t), (many, _)) = (cost(&key(1)), cost(&key(16)));
-            let slope = (many / one).ln() / 16.0_f64.ln();
-            // below one sample per pixel, errors count as proportional to 1/time
-            if seconds < t { one * t / seconds } else { one * (seconds / t).powf(slope) }
-        };
-        let ways: Vec<Way> = summary.series.iter().map(|s| s.way).collect();
-        let best = ways.iter().min_by(|a, b| error(a).total_cmp(&error(b))).unwrap();
-        assert_eq!((best.technique, best.sampler), (Technique::SolidAngle, Sampler::Stratified));
-        assert_eq!(summary.series[summary.ranking[0]].way, *best);
-        // the best of the others, and points uniform over the area with independent numbers
-        let others = ways.iter().filter(|w| w.technique != best.technique);
-        let other = others.min_by(|a, b| error(a).total_cmp(&error(b))).unwrap();
-        assert_eq!((other.technique, other.sampler), (Technique::MisPower, Sampler::Sobol));
-        let plain = ways.iter().find(|w| (w.technique, w.sampler) == (Technique::Area, Sampler::Independent)).unwrap();
-        let [factor, of_plain] = [other, plain].map(|way| error(way) / error(best));
-        let expected = format!(
-            "{} — best: solid-angle with stratified; its squared error after 0.16 s is 1/{factor:.2} of that of mis-power with sobol, the best \
-             other technique, and 1/{of_plain:.1} of that of plain area sampling",
-            summary.scene
-        );
-        assert!(line.starts_with(&expected), "{line}\n{expected}");
+    let found: Vec<String> = head.split("<li>").skip(1).map(|li| li[..li.find("</li>").unwrap()].to_owned()).collect();
+    let expected: Vec<String> = outcome.summaries.iter().flat_map(Summary::sentences).collect();
+    assert_eq!(found, expected);
+    let summary = &outcome.summaries[0];
+    // replicates have 1.00, 1.01 and 1.02 of the error
+    let to = |way: &Way, error: f64| {
+        let Way { technique, choice, sampler } = *way;
+        let key = |spp| Key { scene: 0, technique, choice, sampler, spp };
+        let mse = (error * summary.mean).powi(2) / 1.01;
+        let ((one, t), (many, last)) = (cost(&key(1)), cost(&key(16)));
+        let slope = (many / one).ln() / 16.0_f64.ln();
+        if mse < many { last * many / mse } else { t * (mse / one).powf(1.0 / slope) }
+    };
+    for series in &summary.series {
+        for (error, reach) in ERRORS.iter().zip(series.reaches) {
+            let ratio = reach.unwrap().seconds / to(&series.way, *error);
+            assert!((ratio - 1.0).abs() < 1e-9, "{} {error}: {ratio}", series.way.title());
+        }
     }
-    assert_eq!(head.matches("<li>").count(), 2);
+    // series are in the order of their seconds to 1 %
+    let order: Vec<f64> = summary.ranking.iter().map(|i| to(&summary.series[*i].way, 0.01)).collect();
+    assert!(order.is_sorted(), "{order:?}");
+    let way = |technique, sampler| Way { technique, choice: ChoiceBy::Auto, sampler };
+    let best = way(Technique::SolidAngle, Sampler::Stratified);
+    assert_eq!(summary.series[summary.ranking[0]].way, best);
+    let named = |sentence: &str| sentence.replace("about ", "").replace(" s", "").replace(',', "");
+    let sentence = &summary.sentences()[1];
+    let [first, second, plain] =
+        [best, way(Technique::MisPower, Sampler::Sobol), way(Technique::Area, Sampler::Independent)].map(|w| {
+            let series = summary.series.iter().find(|s| s.way == w).unwrap();
+            answer::seconds(series.reaches[1].as_ref().unwrap())
+        });
+    let expected = format!(
+        "to reach 1 %, solid-angle with stratified takes {first}, mis-power with sobol {second}, area with independent {plain}"
+    );
+    assert_eq!(named(sentence), named(&expected));
     assert!(!head.contains("a remark"), "notes come last");
+}
+
+/// Where the intervals of two techniques overlap, none is called the best, and on a busy machine the time of the processors counts.
+#[test]
+fn no_best_is_named_where_intervals_overlap() {
+    let sentences = |noise: f64| {
+        let mut outcome = outcome(&["quads"]);
+        for (key, rows) in &mut outcome.rows {
+            let times = if key.technique == Technique::MisPower { 0.65 } else { 1.0 };
+            for row in rows {
+                row.seconds *= times * (1.0 + noise * (f64::from(row.replicate) - 1.0));
+            }
+        }
+        let baseline = Way { technique: Technique::Area, choice: ChoiceBy::Auto, sampler: Sampler::Independent };
+        Summary::new(&outcome.plan, &outcome.rows, 0, baseline, Clock::Wall).sentences()
+    };
+    assert!(sentences(0.001).iter().all(|sentence| !sentence.contains("no best")), "{:?}", sentences(0.001));
+    assert!(sentences(0.2)[1].starts_with("to reach 1 %, there is no best: "), "{:?}", sentences(0.2));
+
+    let mut outcome = outcome(&["quads"]);
+    // two threads that ran all the time, and two that ran for half of it
+    assert_eq!(Clock::of(&outcome.rows, 2), Clock::Wall);
+    outcome.rows.values_mut().flatten().for_each(|row| row.seconds *= 2.0);
+    outcome.clock = Clock::of(&outcome.rows, 2);
+    assert_eq!(outcome.clock, Clock::Processors(0.5));
+    let page = page(&outcome);
+    assert!(page.contains("the threads ran for 50 % of the time"), "the page says so");
+    let shown = page.split("<figure").find(|part| part.contains(": error against CPU time")).unwrap();
+    assert!(!shown.starts_with(" class=\"off\""), "and shows it");
+}
+
+/// A race leaves out the images of a series whose squared error × time is over eight times the best, and no others.
+#[test]
+fn a_race_goes_on_with_those_that_can_win() {
+    let Outcome { plan, rows, .. } = outcome(&["quads"]);
+    let plan = Plan { is_race: true, ..plan };
+    let mut rows: Rows = rows.into_iter().map(|(key, rows)| (key, rows[..1].to_vec())).collect();
+    let kept = &mut |_: &ChartedScene, _: &Key, _: &Measurement| Ok(());
+    let left_out = plan.run(&mut rows, kept, &AtomicBool::new(false), &|_| ()).unwrap();
+    let product = |key: &Key| {
+        let (error, seconds) = cost(key);
+        error * seconds
+    };
+    let best = |spp: u32| plan.keys.iter().filter(|k| k.spp <= spp).map(product).fold(f64::INFINITY, f64::min);
+    let hopeless: Vec<&Key> = plan.keys.iter().filter(|key| product(key) > 8.0 * best(key.spp)).collect();
+    assert!(!hopeless.is_empty() && hopeless.len() < plan.keys.len(), "{}", hopeless.len());
+    assert!(hopeless.iter().all(|key| rows[key].len() == 1), "no further image");
+    // images of the others were added, which are those of the renderer: what they tell leaves out others
+    assert!(left_out >= 2 * hopeless.len() && rows.values().any(|rows| rows.len() == 3), "{left_out}");
 }
 
 #[test]
@@ -117,11 +178,11 @@ fn one_series_of_each_technique_is_shown_at_first() {
     let outcome = outcome(&["quads"]);
     let page = page(&outcome);
     let parts: Vec<&str> = page.split("<figure").skip(1).collect();
-    // two errors against four costs, and efficiency
-    assert_eq!(parts.len(), 9);
+    // three errors against four costs, and seconds
+    assert_eq!(parts.len(), 13);
     let at_first = |part: &&&str| !part.starts_with(" class=\"off\"");
     assert_eq!(parts.iter().filter(at_first).count(), 3);
-    let table = parts[8].split_once("<table>").unwrap().1;
+    let table = parts[12].split_once("<table>").unwrap().1;
     for part in parts.iter().map(|p| p.split("</figure>").next().unwrap()).chain([table]) {
         let all = series(part);
         assert_eq!(all.len(), 9, "{all:?}");
@@ -132,7 +193,7 @@ fn one_series_of_each_technique_is_shown_at_first() {
     // the same in files, which hold nothing else
     let summary = &outcome.summaries[0];
     let error = charts::error(summary, Against::Time, Measure::Mse);
-    for figure in [error.unwrap(), charts::efficiency(summary).unwrap()] {
+    for figure in [error.unwrap(), charts::seconds(summary).unwrap()] {
         assert_eq!(series(&figure.drawing.file()).len(), 3);
         assert!(!figure.drawing.file().contains(">area, independent</text>"));
     }
@@ -150,11 +211,11 @@ fn bars_are_sorted_and_notes_come_last() {
     };
     let value =
         |id: &str, f: &dyn Fn(usize) -> f64| f(summary.series.iter().position(|s| charts::id(s) == id).unwrap());
-    let gain = |i: usize| summary.gains.iter().find(|g| g.series == i).unwrap().gain.value;
-    let efficiency = series(part(": efficiency at")).iter().map(|s| value(s.0, &gain)).collect::<Vec<_>>();
-    assert!(efficiency.len() == 9 && efficiency.is_sorted_by(|a, b| a >= b), "{efficiency:?}");
+    let to_1_percent = |i: usize| summary.series[i].reaches[1].unwrap().seconds;
+    let bars = series(part(": seconds to")).iter().map(|s| value(s.0, &to_1_percent)).collect::<Vec<_>>();
+    assert!(bars.len() == 9 && bars.is_sorted(), "{bars:?}");
     // rows are stacked from the top without gaps, hidden ones aside
-    let rows: Vec<&str> = part(": efficiency at").split("translate(0 ").skip(1).collect();
+    let rows: Vec<&str> = part(": seconds to").split("translate(0 ").skip(1).collect();
     let places: Vec<i32> = rows.iter().map(|r| r[..r.find(')').unwrap()].parse().unwrap()).collect();
     assert!(places.is_sorted() && places.last() <= Some(&(3 * places.iter().find(|y| **y > 0).unwrap())), "{places:?}");
     let at = |text: &str| page.rfind(text).unwrap();
@@ -183,7 +244,7 @@ fn a_bias_is_named_where_there_is_one() {
         }
     }
     let baseline = Way { technique: Technique::Area, choice: ChoiceBy::Auto, sampler: Sampler::Independent };
-    let summary = Summary::new(&outcome.plan, &outcome.rows, 0, baseline);
+    let summary = Summary::new(&outcome.plan, &outcome.rows, 0, baseline, Clock::Wall);
     // t of three values beyond which chance comes once in 20 × 27 times: its probability is 1 − t/√(2 + t²)
     let t = summary.bias_limit;
     assert!((1.0 - t / (2.0 + t * t).sqrt() - 0.05 / 27.0).abs() < 1e-9, "{t}");
@@ -207,10 +268,10 @@ fn charts_of_choices_name_the_choices() {
     outcome.rows = outcome.rows.iter().map(|(key, rows)| (rename(key), rows.clone())).collect();
     outcome.plan.keys.iter_mut().for_each(|key| *key = rename(key));
     let baseline = Way { technique: Technique::Area, choice: ChoiceBy::Uniform, sampler: Sampler::Independent };
-    let summary = Summary::new(&outcome.plan, &outcome.rows, 0, baseline);
+    let summary = Summary::new(&outcome.plan, &outcome.rows, 0, baseline, Clock::Wall);
     let drawing = charts::error(&summary, Against::Rays, Measure::RelativeMse).unwrap().drawing.file();
     for name in ["by uniform, sobol", "by power, stratified", "by tree, sobol", "rays, solid-angle", "rays per image"] {
         assert!(drawing.contains(name), "{name}");
     }
-    assert!(summary.headline().contains("the best other choice"), "{}", summary.headline());
+    assert!(summary.sentences()[1].contains("solid-angle by tree with sobol"), "{:?}", summary.sentences());
 }

@@ -2,8 +2,14 @@
 
 use strsim::levenshtein;
 
+/// Letters of a word beyond which it is no misspelt name: distances take a time in proportion to both lengths.
+const LONGEST: usize = 128;
+
 /// The known name that is the fewest letters away, whatever their case, if it is at most two away.
 pub(super) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    if name.len() > LONGEST {
+        return None;
+    }
     let name = name.to_lowercase();
     let near = known.into_iter().map(|known| (levenshtein(&name, &known.to_lowercase()), known)).min()?;
     // two edits turn any name of two letters into another

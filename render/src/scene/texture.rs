@@ -216,6 +216,20 @@ impl Texture {
     pub fn constant(&self) -> Option<[f32; 3]> {
         if let Self::Constant(color) = self { Some(*color) } else { None }
     }
+    /// The number of textures that a value is computed of, each counted as often as it is, if there are at most `most`. That many are
+    /// visited.
+    #[must_use]
+    pub fn parts(&self, most: usize) -> Option<usize> {
+        let all =
+            |of: &[Self]| of.iter().try_fold(1, |sum: usize, part| Some(sum + part.parts(most.checked_sub(sum)?)?));
+        let found = match self {
+            Self::Constant(_) | Self::Picture(_) | Self::Opacity(_) => Some(1),
+            Self::Channel(of, _) | Self::Inverse(of) | Self::Root(of) => all(std::slice::from_ref(of)),
+            Self::Product(of) | Self::Checkerboard(of, _) => all(&of[..]),
+            Self::Mix(of) => all(&of[..]),
+        };
+        found.filter(|parts| *parts <= most)
+    }
     /// The value at texture coordinates.
     #[must_use]
     pub fn at(&self, uv: [f32; 2]) -> [f32; 3] {

@@ -1,6 +1,6 @@
 //! The maps of a sweep: colours by error, contours between decades, axes.
 
-use crate::pose::Sweep;
+use crate::pose::{Sweep, Tick};
 use crate::survey::{ErrorMap, Figures};
 use etendue_laboratory::chart::plot::escape;
 use std::fmt::Write as _;
@@ -99,6 +99,18 @@ fn decade(measure: Measure, value: f64) -> Option<i32> {
 const PLOT: [f64; 2] = [250.0, 190.0];
 const MARGIN: [f64; 2] = [62.0, 22.0];
 const STEP: [f64; 2] = [PLOT[0] + 14.0, PLOT[1] + 22.0];
+
+/// What a page tells of each cell under the pointer: the measure, and a hundred times the logarithms of its values row by row from below;
+/// nothing where there is none, and `z` for 0.
+fn values(chart: &ErrorMap, measure: Measure, name: &str) -> String {
+    let number = |cell: &Figures| match measure.of(chart, cell) {
+        x if x.is_nan() => String::new(),
+        x if x <= 0.0 => "z".to_owned(),
+        x => format!("{:.0}", 100.0 * x.log10()),
+    };
+    let list: Vec<String> = chart.cells.iter().map(number).collect();
+    format!(r#" data-measure="{name}" data-cells="{}""#, list.join(","))
+}
 
 /// Draws one map, scaled to the size of a plot.
 fn map(chart: &ErrorMap, measure: Measure, out: &mut String) {
@@ -205,8 +217,12 @@ pub(super) fn sheet(charts: &[&ErrorMap]) -> String {
     let sweep = &charts[0].sweep;
     let (columns, rows) = (charts.len() as f64, MEASURES.len() as f64);
     let (width, height) = (MARGIN[0] + STEP[0] * columns + 4.0, MARGIN[1] + STEP[1] * rows + 30.0);
+    let axis = |ticks: &[Tick]| ticks.iter().map(|t| format!("{:e}", t.value)).collect::<Vec<_>>().join(",");
+    let axes = [axis(&sweep.x), axis(&sweep.y)];
+    let titles = [sweep.x_title, sweep.y_title].map(escape);
+    let told = format!(r#"data-x="{}" data-y="{}" data-titles="{}|{}""#, axes[0], axes[1], titles[0], titles[1]);
     let mut out = format!(
-        r#"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="10" fill="currentColor">"#
+        r#"<svg {told} xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="10" fill="currentColor">"#
     );
     let _ = write!(out, r##"<rect width="{width}" height="{height}" fill="#fff"/><g fill="#222">"##);
     for (i, chart) in charts.iter().enumerate() {
@@ -219,7 +235,7 @@ pub(super) fn sheet(charts: &[&ErrorMap]) -> String {
         );
         for (j, (measure, name)) in MEASURES.iter().enumerate() {
             let y = MARGIN[1] + STEP[1] * j as f64;
-            let _ = write!(out, r#"<g transform="translate({x} {y})">"#);
+            let _ = write!(out, r#"<g transform="translate({x} {y})"{}>"#, values(chart, *measure, name));
             map(chart, *measure, &mut out);
             ticks(sweep, true, i == 0, &mut out);
             out.push_str("</g>");

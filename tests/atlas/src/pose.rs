@@ -140,7 +140,7 @@ fn elevations(per_decade: i32) -> Vec<Tick> {
 
 /// Elevations in units of the size, densest where the horizon touches the shape.
 fn cuts() -> Vec<Tick> {
-    let near = |k: i32| named(1.0 - 0.1_f64.powi(k), if k == 7 { "1-1e-7" } else { "" });
+    let near = |k: i32| named(1.0 - 0.1_f64.powi(k), if k == 7 { "nearly 1" } else { "" });
     let mut up = vec![named(1.1, "1.1"), named(1.001, ""), named(1.0 + 1e-6, ""), named(1.0, "1")];
     up.extend((1..=7).rev().map(near));
     up.extend([named(0.7, ""), named(0.5, "0.5"), named(0.2, "")]);
@@ -160,7 +160,7 @@ fn round_sweeps(fine: i32) -> Vec<Sweep> {
     // up to the surface, and inside
     let mut x = powers(-9, -1, fine);
     x.extend([named(0.3, ""), named(0.7, ""), named(0.9, "0.9")]);
-    x.extend((2..=7).map(|k| named(1.0 - 0.1_f64.powi(k), if k == 7 { "1-1e-7" } else { "" })));
+    x.extend((2..=7).map(|k| named(1.0 - 0.1_f64.powi(k), if k == 7 { "nearly 1" } else { "" })));
     x.extend([named(1.0, "1"), named(1.0 + 1e-6, ""), named(1.1, ""), named(1e3, "1e3")]);
     vec![
         Sweep {
@@ -217,7 +217,7 @@ pub fn sweeps(kind: ShapeKind, quick: bool) -> Vec<Sweep> {
         let mut x = vec![named(0.0, "0")];
         x.extend(powers(-6, -1, fine));
         x.push(named(0.5, ""));
-        x.extend((1..=6).map(|k| named(1.0 - 0.1_f64.powi(k), if k == 6 { "1-1e-6" } else { "" })));
+        x.extend((1..=6).map(|k| named(1.0 - 0.1_f64.powi(k), if k == 6 { "nearly 1" } else { "" })));
         x.extend([named(1.0, "1"), named(1.0 + 1e-6, ""), named(1.0 + 1e-3, ""), named(1.5, "1.5")]);
         x.extend(powers(1, 6, fine));
         list.push(Sweep {

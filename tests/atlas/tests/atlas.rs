@@ -160,6 +160,13 @@ fn the_program_maps_one_shape_and_names_mistakes() {
     assert_eq!(names, ["atlas.csv", "atlas.html", "sphere-size-elevation.svg", "sphere-size-horizon.svg"]);
     let page = fs::read_to_string(folder.join("maps/atlas.html")).unwrap();
     assert!(page.contains("cone, series below 1.5°") && page.contains("<svg"));
+    // each cell of each map tells its value to whoever points at it
+    for map in page.split("<svg data-x=\"").skip(1) {
+        let attribute =
+            |name: &str| map.split(&format!("{name}=\"")).nth(1).unwrap().split('"').next().unwrap().split(',').count();
+        let cells = map.split('"').next().unwrap().split(',').count() * attribute("data-y");
+        assert_eq!(attribute("data-cells"), cells);
+    }
     assert!(["{{", ">NaN", "\"NaN"].iter().all(|gap| !page.contains(gap)), "a placeholder or value is missing");
     let mut table = csv::Reader::from_path(folder.join("maps/atlas.csv")).unwrap();
     let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();

@@ -6,6 +6,7 @@ use super::server::CountGuard;
 use super::state::{Picture, Shared, State, Way};
 use etendue_render::camera::Orbit;
 use etendue_render::film::Film;
+use etendue_render::scene::CameraSettings;
 use etendue_render::scene::area::Area;
 use etendue_render::{Sampler, Settings, Technique};
 use serde_json::{Value, json};
@@ -30,6 +31,10 @@ pub(crate) fn answer(shared: &Shared, path: &str, request: &Request) -> Response
         (_, method) if method != "GET" => Response::text(405, "only wishes are not a GET"),
         ("status", _) => status(shared),
         ("image", _) => image(shared, request),
+        ("reference", _) => match &shared.reference {
+            Some((_, film)) => sent(shared, film, 1),
+            None => Response::text(404, "there is no reference: --reference FILE.exr names one"),
+        },
         _ => page::file(path).unwrap_or_else(|| Response::text(404, "there is no such page")),
     }
 }
@@ -87,6 +92,29 @@ fn orbit(value: &Value) -> Option<Orbit> {
     is_one.then_some(Orbit { around, over, distance })
 }
 
+/// A camera that looks at a point in this distance, as pbrt's `LookAt` and as the matrix of a glTF node, whose space is that of the scene.
+fn placed(camera: &CameraSettings, distance: f64) -> String {
+    let unit = |v: [f64; 3]| v.map(|x| x / v.iter().map(|x| x * x).sum::<f64>().sqrt());
+    let [right, up, forward] = [camera.right, camera.up, camera.forward].map(unit);
+    let at: [f64; 3] = std::array::from_fn(|k| camera.origin[k] + distance * forward[k]);
+    let cross: [f64; 3] = std::array::from_fn(|k| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        up[i] * forward[j] - up[j] * forward[i]
+    });
+    // pbrt's space is left-handed, unless a file mirrors it
+    let is_mirrored = (0..3).map(|k| right[k] * cross[k]).sum::<f64>() < 0.0;
+    let words = |numbers: &[f64]| {
+        let rounded = numbers.iter().map(|x| format!("{}", (1e6 * x).round() / 1e6 + 0.0));
+        rounded.collect::<Vec<_>>()
+    };
+    let mirror = if is_mirrored { "Scale -1 1 1 " } else { "" };
+    let look = [camera.origin, at, up].map(|v| words(&v).join(" ")).join("  ");
+    let back = forward.map(|x| -x);
+    let columns = [(right, 0.0), (up, 0.0), (back, 0.0), (camera.origin, 1.0)];
+    let matrix: Vec<String> = columns.iter().flat_map(|([x, y, z], w)| words(&[*x, *y, *z, *w])).collect();
+    format!("{mirror}LookAt {look}\n\"matrix\": [{}]", matrix.join(", "))
+}
+
 /// All that the page shows besides the pixels.
 fn status(shared: &Shared) -> Response {
     let (done, of) = (shared.done.load(Ordering::Relaxed), shared.of.load(Ordering::Relaxed));
@@ -117,6 +145,11 @@ fn status(shared: &Shared) -> Response {
         "target": facts.target,
         "files": facts.files,
         "copy": facts.copy,
+        "reference": shared.reference.as_ref().map(|(name, _)| name),
+        "camera": facts.camera.as_ref().map(|(camera, depth)| {
+            let turned = wishes.orbit.map(|orbit| camera.orbited(*depth, orbit));
+            placed(turned.as_ref().unwrap_or(camera), *depth * wishes.orbit.map_or(1.0, |orbit| orbit.distance))
+        }),
         "orbit": wishes.orbit.map(|orbit| [orbit.around, orbit.over, orbit.distance]),
         "techniques": Technique::NAMES,
         "samplers": Sampler::NAMES,
@@ -146,14 +179,16 @@ fn image(shared: &Shared, request: &Request) -> Response {
         Ok(way) => way,
         Err(what) => return Response::text(400, &what),
     };
-    let place = CountGuard::new(&shared.sending);
+    let found = shared.lock().picture(way).map(|picture| (Arc::clone(&picture.film), picture.version));
+    found.map_or_else(|| Response::text(404, "there is no such image"), |(film, version)| sent(shared, &film, version))
+}
+
+/// An image, unless too many are being sent.
+fn sent(shared: &Shared, film: &Arc<Film>, version: u64) -> Response {
+    let (place, film) = (CountGuard::new(&shared.sending), Arc::clone(film));
     if place.number > SENT {
         return Response::text(503, "too many images are being sent");
     }
-    let (film, version) = match shared.lock().picture(way) {
-        Some(picture) => (Arc::clone(&picture.film), picture.version),
-        None => return Response::text(404, "there is no such image"),
-    };
     let length = 16 + 28 * film.pixels.len();
     let send = move |out: &mut dyn Write| {
         let _place = place;
@@ -185,6 +220,27 @@ fn send(out: &mut dyn Write, film: &Film, version: u64) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// By hand: above and in front, looking down at 45°; pbrt's x is to the right where y is up and the camera looks along +z.
+    #[test]
+    fn a_camera_is_written_as_files_place_it() {
+        let half = 0.5_f64.sqrt();
+        let mut camera = CameraSettings {
+            origin: [1.0, 2.0, -2.0],
+            forward: [0.0, -half, half],
+            right: [3.0, 0.0, 0.0],
+            up: [0.0, half, half],
+            is_orthographic: false,
+            screen: etendue_render::scene::Screen::Half(1.0),
+            lens: None,
+        };
+        let text = placed(&camera, 8.0_f64.sqrt());
+        let look = "LookAt 1 2 -2  1 0 0  0 0.707107 0.707107";
+        let matrix = "[1, 0, 0, 0, 0, 0.707107, 0.707107, 0, 0, 0.707107, -0.707107, 0, 1, 2, -2, 1]";
+        assert_eq!(text, format!("{look}\n\"matrix\": {matrix}"));
+        camera.right = [-1.0, 0.0, 0.0];
+        assert!(placed(&camera, 1.0).starts_with("Scale -1 1 1 LookAt 1 2 -2 "), "{}", placed(&camera, 1.0));
+    }
 
     #[test]
     fn a_crop_consists_of_tiles() {

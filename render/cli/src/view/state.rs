@@ -4,6 +4,7 @@ use super::watch::Watch;
 use etendue_render::camera::Orbit;
 use etendue_render::film::Film;
 use etendue_render::film::claim::Claim;
+use etendue_render::scene::CameraSettings;
 use etendue_render::scene::area::Area;
 use etendue_render::{Sampler, Technique};
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
@@ -67,6 +68,8 @@ pub(crate) struct Facts {
     pub(crate) files: Option<String>,
     /// Which files a copy would be written to.
     pub(crate) copy: String,
+    /// The camera of the scene, and the distance of what it looks at.
+    pub(crate) camera: Option<(CameraSettings, f64)>,
 }
 
 #[derive(Debug)]
@@ -99,12 +102,14 @@ pub(crate) struct Shared {
     pub(crate) of: AtomicU64,
     /// Images that are being sent.
     pub(crate) sending: Arc<AtomicUsize>,
+    /// The name of an image to compare with, and its pixels.
+    pub(crate) reference: Option<(String, Arc<Film>)>,
 }
 
 impl Shared {
-    pub(crate) fn new(state: State) -> Self {
+    pub(crate) fn new(state: State, reference: Option<(String, Arc<Film>)>) -> Self {
         let (stop, done, of, sending) = Default::default();
-        Self { state: Mutex::new(state), changed: Condvar::new(), stop, done, of, sending }
+        Self { state: Mutex::new(state), changed: Condvar::new(), stop, done, of, sending, reference }
     }
 
     pub(crate) fn lock(&self) -> MutexGuard<'_, State> {
@@ -152,7 +157,7 @@ mod tests {
         let way = Way { technique: Technique::Auto, sampler: Sampler::Sobol };
         let wishes = Wishes { way, crop: Some([0; 4]), paused: false, reload: false, save: false, orbit: None };
         let (facts, pictures) = (Facts::default(), Vec::new());
-        let shared = Shared::new(State { wishes, facts, pictures, watch: Arc::default(), message: None });
+        let shared = Shared::new(State { wishes, facts, pictures, watch: Arc::default(), message: None }, None);
         let count = || {
             for _ in 0..1000 {
                 let counted = shared.wish(|next, _| {

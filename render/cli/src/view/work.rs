@@ -27,7 +27,7 @@ const BYTES: u64 = 28 + 8 + 28;
 /// Greatest size of all images that are kept, except that the last two are.
 const MOST_KEPT: u64 = 1 << 30;
 /// A pass takes a quarter of the time so far, within these bounds in seconds, unless its least number of samples takes longer.
-const PASS: [f64; 2] = [0.1, 1.0];
+const PASS: [f64; 2] = [0.1, 0.4];
 /// Files are written no more often than that.
 const SAVE: Duration = Duration::from_secs(1);
 /// Errors are noted at times that differ by this factor, so that a longer rendering has only a few more of them.
@@ -99,6 +99,8 @@ impl Worker<'_> {
         let watch = Arc::new(Watch::new(scene.inputs.iter().map(|input| &*input.path), began));
         let identity = Identity::new(&scene, settings, self.image.sensor);
         let world = self.image.world(&mut scene, self.pool)?;
+        let camera = world.camera().clone();
+        let depth = world.depth().unwrap_or_else(|| length(camera.origin)).max(f64::MIN_POSITIVE);
         let facts = Facts {
             scene: scene.name.clone(),
             size: [settings.width, settings.height],
@@ -107,9 +109,8 @@ impl Worker<'_> {
             target: self.goal.error,
             files: self.output.as_ref().map(|output| output.both()),
             copy: self.copy().both(),
+            camera: Some((camera.clone(), depth)),
         };
-        let camera = world.camera().clone();
-        let depth = world.depth().unwrap_or_else(|| length(camera.origin)).max(f64::MIN_POSITIVE);
         Ok(Subject { world, settings, watch, facts, identity, camera, depth, orbit: None })
     }
 

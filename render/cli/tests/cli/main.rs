@@ -2,6 +2,7 @@
 
 mod chart;
 mod hints;
+mod hostile;
 mod lost;
 mod misuse;
 mod parts;

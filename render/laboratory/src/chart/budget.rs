@@ -19,6 +19,8 @@ pub(super) struct Extent {
     pub(super) sizes: Vec<[u32; 2]>,
     /// Samples per pixel of the references that are rendered.
     pub(super) reference_spp: u32,
+    /// Whether series that cannot win are measured no further.
+    pub(super) is_race: bool,
 }
 
 /// Seconds for each pixel of an image: some for any number of samples, as for certificates, and some for each sample.
@@ -53,6 +55,8 @@ pub(super) struct Trial {
 
 /// Images of a trial are repeated until this many seconds have passed, at most three times; the shortest counts.
 const SECONDS: f64 = 0.03;
+/// Part of the images after the first round, and of those with the most samples, that a race is taken to leave.
+const RACE: f64 = 0.3;
 /// Part of a time that the estimate may fill.
 const FILLED: f64 = 0.85;
 
@@ -70,16 +74,16 @@ fn seconds(scene: &Loaded, settings: &Settings) -> f64 {
     least
 }
 
-/// The rate at which a way renders a scene: that of two images of half the width and height.
+/// The rate at which a way renders a scene: that of two images of a quarter of the width and height.
 fn rate(scene: &Loaded, size: [u32; 2], spps: [u32; 2], settings: impl Fn([u32; 2], u32) -> Settings) -> Rate {
-    let size = size.map(|side| side.div_ceil(2));
+    let size = size.map(|side| side.div_ceil(4));
     let pixels = f64::from(size[0]) * f64::from(size[1]);
     Rate::new(pixels, spps.map(|spp| (f64::from(spp), seconds(scene, &settings(size, spp)))))
 }
 
 impl Trial {
     /// Renders small images by all methods and samplers, as far as these apply.
-    pub(super) fn new(scenes: &[Loaded], samplers: &[Sampler]) -> Self {
+    pub(super) fn new(scenes: &[Loaded], samplers: &[Sampler], is_quick: bool) -> Self {
         let mut rates = HashMap::new();
         for (scene, loaded) in scenes.iter().enumerate() {
             for &(technique, choice) in &loaded.methods {
@@ -94,8 +98,11 @@ impl Trial {
                 }
             }
         }
-        let of_reference =
-            |scene: &Loaded| scene.lacks_reference().then(|| rate(scene, scene.size, [32, 64], Reference::settings));
+        let of_reference = |scene: &Loaded| {
+            scene
+                .lacks_reference()
+                .then(|| rate(scene, scene.size, [32, 64], |size, spp| Reference::settings(size, spp, is_quick)))
+        };
         let references = scenes.iter().map(of_reference).collect();
         Self { rates, references }
     }
@@ -110,10 +117,13 @@ impl Trial {
         let image = |key: &Key, rate: &Rate| {
             let possible = |spp: &&u32| inapplicable(key.sampler, **spp).is_none();
             let spps = extent.spps.iter().filter(possible);
-            spps.map(|spp| needs_repeats(rate.seconds(extent.sizes[scene], *spp))).sum::<f64>()
+            let seconds = |spp: &u32| needs_repeats(rate.seconds(extent.sizes[scene], *spp));
+            let part = |spp: &u32| if extent.is_race && Some(spp) == extent.spps.last() { RACE } else { 1.0 };
+            spps.map(|spp| part(spp) * seconds(spp)).sum::<f64>()
         };
         let keys = self.rates.iter().filter(|(key, _)| key.scene == scene);
-        let images = f64::from(extent.replicates) * keys.map(|(key, rate)| image(key, rate)).sum::<f64>();
+        let more = f64::from(extent.replicates - 1) * if extent.is_race { RACE } else { 1.0 };
+        let images = (1.0 + more) * keys.map(|(key, rate)| image(key, rate)).sum::<f64>();
         images + self.reference(extent, scene)
     }
 
@@ -131,12 +141,14 @@ impl Trial {
             let counts = if options.spp.is_empty() { extent.spps.len() } else { 0 };
             let references: f64 = all.clone().map(|scene| self.reference(extent, scene)).sum();
             // of the scenes that can have a smaller image, the one that takes longest
+            // in the smallest images a quick chart finds other winners, see `the_answer_of_a_quick_chart`
+            let least = if options.quick { 128 } else { 64 };
             let can_halve =
-                |scene: &usize| extent.sizes[*scene].iter().all(|side| *side > 64 && side.is_multiple_of(2));
+                |scene: &usize| extent.sizes[*scene].iter().all(|side| *side > least && side.is_multiple_of(2));
             let is_free = options.size.is_none() && options.reference.is_none();
             let slow = all.clone().filter(|scene| is_free && can_halve(scene));
             let slow = slow.max_by(|a, b| self.of_scene(extent, *a).total_cmp(&self.of_scene(extent, *b)));
-            if options.reference_spp.is_none() && extent.reference_spp > 256 && references > 0.25 * goal {
+            if options.reference_spp.is_none() && extent.reference_spp > 64 && references > 0.25 * goal {
                 extent.reference_spp /= 2;
             } else if counts > 4 {
                 extent.spps.pop();
@@ -191,6 +203,7 @@ mod tests {
                 replicates: options.replicates.unwrap_or(5),
                 sizes: vec![[256; 2]],
                 reference_spp: 4096,
+                is_race: false,
             };
             trial.fit(&mut extent, &options, seconds);
             let estimate = trial.estimate(&extent);

@@ -1,8 +1,10 @@
 //! Draws the charts of a scene.
 
+use super::answer;
+use super::clock::Clock;
 use super::plot::{Bar, BarRow, Bars, Chart, Dot, Drawing, Line, Scale, short};
-use super::stats::Estimate;
-use super::summary::{Gain, Point, Series, Summary};
+use super::stats::{Estimate, WIDEST};
+use super::summary::{ERRORS, ORDER, Point, Series, Summary};
 
 /// A chart with a file name and a caption.
 #[derive(Clone, Debug)]
@@ -45,6 +47,8 @@ pub enum Against {
 /// Which error is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
+    /// Root of the mean squared error over the mean of the reference, in per cent.
+    Rms,
     /// Mean squared error.
     Mse,
     /// Mean squared error relative to the square of the reference.
@@ -59,10 +63,10 @@ impl Against {
     pub const fn name(self) -> &'static str {
         ["time", "cpu", "rays", "samples"][self as usize]
     }
-    /// Whether a page shows errors against it at first.
+    /// Whether a page shows errors against it at first: the time that counts, and samples.
     #[must_use]
-    pub const fn is_shown(self) -> bool {
-        matches!(self, Self::Time | Self::Samples)
+    pub fn is_shown(self, clock: Clock) -> bool {
+        self == Self::Samples || self == if clock == Clock::Wall { Self::Time } else { Self::Cpu }
     }
     const fn title(self) -> &'static str {
         ["time", "CPU time", "rays", "samples"][self as usize]
@@ -74,7 +78,7 @@ impl Against {
     /// Where a point is; `None` where the system does not tell.
     fn at(self, point: &Point) -> Option<Bar> {
         match self {
-            Self::Time => Some(point.seconds.into()),
+            Self::Time => Some(point.wall.into()),
             Self::Cpu => point.cpu.map(Bar::from),
             Self::Rays => Some(Bar::exact(point.rays)),
             Self::Samples => Some(Bar::exact(f64::from(point.spp))),
@@ -84,14 +88,27 @@ impl Against {
 
 impl Measure {
     /// All of them, in the order of a page.
-    pub const ALL: [Self; 2] = [Self::Mse, Self::RelativeMse];
+    pub const ALL: [Self; 3] = [Self::Rms, Self::Mse, Self::RelativeMse];
     /// Name in pages.
     #[must_use]
     pub const fn name(self) -> &'static str {
-        ["MSE", "relMSE"][self as usize]
+        ["RMS %", "MSE", "relMSE"][self as usize]
     }
-    fn of(self, point: &Point) -> Estimate {
-        if self == Self::Mse { point.mse } else { point.relative }
+    const fn label(self) -> &'static str {
+        ["error (relative RMS, %)", "mean squared error", "mean of squared error / squared reference"][self as usize]
+    }
+    /// Where a point is, and whether its interval is narrow.
+    fn of(self, summary: &Summary, point: &Point) -> (Bar, bool) {
+        let estimate = if self == Self::RelativeMse { point.relative } else { point.mse };
+        let bar = Bar::from(estimate);
+        let percent = |mse: f64| 100.0 * mse.max(0.0).sqrt() / summary.mean;
+        let is_root = self == Self::Rms;
+        let bar = if is_root {
+            Bar { value: percent(bar.value), low: percent(bar.low), high: percent(bar.high) }
+        } else {
+            bar
+        };
+        (bar, estimate.is_sure())
     }
 }
 
@@ -105,44 +122,56 @@ pub fn error(summary: &Summary, against: Against, measure: Measure) -> Option<Fi
         Some(slope) => format!("{} {}", summary.name(&s.way), with_interval(slope).replace('-', "−")),
         None => format!("{} slope ?", summary.name(&s.way)),
     };
-    let dot = |p: &Point| {
-        let (x, y) = (against.at(p)?, measure.of(p));
-        let sure = y.is_sure() && (against != Against::Time || p.seconds.is_sure());
-        Some(Dot { x, y: y.into(), sure })
+    let dot = |series: &Series, p: &Point| {
+        let (x, (y, is_sure)) = (against.at(p)?, measure.of(summary, p));
+        let sure = is_sure && (against != Against::Time || p.wall.is_sure());
+        let seconds = p.cpu.map_or_else(
+            || short(p.wall.value),
+            |cpu| format!("{} ({} of CPU)", short(p.wall.value), short(cpu.value)),
+        );
+        let error = format!("{} {}", short(y.value), if measure == Measure::Rms { "%" } else { measure.name() });
+        let images = p.costs.len();
+        let about = format!(
+            "{}: {} spp, {seconds} s, error {error}, {images} image{}",
+            series.way.title(),
+            p.spp,
+            if images == 1 { "" } else { "s" }
+        );
+        Some(Dot { x, y, sure, about })
     };
-    let line = |(index, series): (usize, &Series)| Line {
-        id: id(series),
-        name: name(series),
-        color: series.way.color(),
-        dash: series.way.sampler as usize,
-        shown: shown.contains(&index),
-        dots: series.points.iter().filter_map(dot).collect(),
+    let line = |index: &usize| {
+        let series = &summary.series[*index];
+        Line {
+            id: id(series),
+            name: name(series),
+            color: series.way.color(),
+            dash: series.way.sampler as usize,
+            shown: shown.contains(index),
+            dots: series.points.iter().filter_map(|p| dot(series, p)).collect(),
+        }
     };
-    let lines: Vec<Line> = summary.series.iter().enumerate().map(line).collect();
+    let lines: Vec<Line> = summary.ranking.iter().map(line).collect();
     if lines.iter().all(|line| line.dots.is_empty()) {
         return None;
     }
-    let [title, y_label] = match measure {
-        Measure::Mse => ["error", "mean squared error"],
-        Measure::RelativeMse => ["relative error", "mean of squared error / squared reference"],
-    };
     let chart = Chart {
-        title: format!("{}: {title} against {}{}", summary.scene, against.title(), summary.common()),
+        title: format!("{}: error against {}{}", summary.scene, against.title(), summary.common()),
         x_label: against.label().to_owned(),
-        y_label: y_label.to_owned(),
+        y_label: measure.label().to_owned(),
         scales: [if is_samples { Scale::Binary } else { Scale::Log }, Scale::Log],
         lines,
-        guides: vec![-1.0, -1.5],
+        guides: if measure == Measure::Rms { vec![-0.5, -0.75] } else { vec![-1.0, -1.5] },
     };
-    let mut caption =
-        "Lower and further left is better. Each point is one sample count per pixel. Bars are 95 % intervals over \
-                       replicates. Hollow points have an interval too wide to support a claim."
-            .to_owned();
+    let slopes = if measure == Measure::Rms { "−½ and −¾" } else { "−1 and −1½" };
+    let mut caption = format!(
+        "Lower and further left is better. Each point is one sample count per pixel. Bars are 95 % intervals over replicates. Hollow points have \
+         an interval too wide to support a claim. Dotted lines have slopes of {slopes}."
+    );
     if is_samples && measure == Measure::Mse {
         caption += " Slopes of log error over log samples are fitted to each replicate: mean and 95 % interval; ? is one of fewer than two \
                     points.";
     }
-    let file = format!("{}error-{}", if measure == Measure::Mse { "" } else { "relative-" }, against.name());
+    let file = format!("{}error-{}", ["", "squared-", "relative-"][measure as usize], against.name());
     Some(Figure { file, shown_for: Some((against, measure)), drawing: chart.draw(), caption })
 }
 
@@ -150,35 +179,31 @@ pub fn error(summary: &Summary, against: Against, measure: Measure) -> Option<Fi
 #[must_use]
 pub fn all(summary: &Summary) -> Vec<Figure> {
     let errors = Measure::ALL.iter().flat_map(|m| Against::ALL.map(|a| error(summary, a, *m)));
-    errors.chain([efficiency(summary)]).flatten().collect()
+    errors.chain([seconds(summary)]).flatten().collect()
 }
 
-/// Draws efficiency relative to the baseline, the greatest first; `None` if there is no baseline.
+/// Draws the seconds to an error of 1 %, the fewest first; `None` if no series has a positive error.
 #[must_use]
-pub fn efficiency(summary: &Summary) -> Option<Figure> {
-    let baseline = &summary.series[summary.baseline?];
+pub fn seconds(summary: &Summary) -> Option<Figure> {
     let leaders = summary.leaders();
-    let row = |g: &Gain| {
-        // the interval is that of a logarithm
-        let factor = 1.0 + g.gain.half / g.gain.value;
-        let bar = Bar { value: g.gain.value, low: g.gain.value / factor, high: g.gain.value * factor };
-        let sure = g.gain.is_sure() || Some(g.series) == summary.baseline;
-        let text = format!("{}×{}", short(g.gain.value), if sure { "" } else { " ?" });
-        let (series, shown) = (&summary.series[g.series], leaders.contains(&g.series));
+    let row = |index: &usize| {
+        let (series, shown) = (&summary.series[*index], leaders.contains(index));
+        let reach = series.reaches[ORDER]?;
+        let sure = !reach.is_beyond && !reach.is_upper_bound && reach.factor - 1.0 <= WIDEST;
+        let end = |end: f64| if reach.factor.is_finite() { end } else { reach.seconds };
+        let bar = Bar { value: reach.seconds, low: end(reach.low()), high: end(reach.high()) };
         let (name, color) = (summary.name(&series.way), series.way.color());
-        BarRow { id: id(series), name, color, bar, text, sure, shown }
+        Some(BarRow { id: id(series), name, color, bar, text: answer::seconds(&reach), sure, shown })
     };
-    let mut rows: Vec<BarRow> = summary.gains.iter().map(row).collect();
-    rows.sort_by(|a, b| b.bar.value.total_cmp(&a.bar.value));
+    let rows: Vec<BarRow> = summary.ranking.iter().filter_map(row).collect();
+    let least = rows.iter().map(|row| row.bar.value).reduce(f64::min)?;
+    let error = answer::percent(ERRORS[ORDER]);
     let bars = Bars {
-        title: format!("{}: efficiency at {} samples per pixel{}", summary.scene, summary.spp, summary.common()),
-        label: format!("1/(error × time), relative to {}", baseline.way.title()),
+        title: format!("{}: seconds to an error of {error}{}", summary.scene, summary.common()),
+        label: if summary.clock == Clock::Wall { "seconds" } else { "seconds of all threads together" }.to_owned(),
         rows,
-        origin: 1.0,
+        origin: 0.5 * least,
     };
-    let caption =
-        "Further right is better: 10 means the same error in a tenth of the time, as long as error falls as 1/time. \
-                   Ratios compare replicates rendered in the same round. Hollow bars with ? have an interval too wide to support a claim."
-            .to_owned();
-    Some(Figure { file: "efficiency".to_owned(), shown_for: None, drawing: bars.draw(), caption })
+    let caption = "Shorter is better. Hollow bars are beyond the images that were measured, or have an interval too wide to support a claim.";
+    Some(Figure { file: "seconds".to_owned(), shown_for: None, drawing: bars.draw(), caption: caption.to_owned() })
 }

@@ -1,5 +1,6 @@
 //! Measures error and time of every scene × technique × choice of a light × sampler × sample count, in interleaved replicates.
 
+use super::clock::Clock;
 use super::reference::{Difference, Reference};
 use super::stats::Cost;
 use crate::cost::median;
@@ -88,11 +89,12 @@ pub struct Measurement {
 }
 
 impl Measurement {
-    /// Time, and errors minus those of the reference.
+    /// Time by a clock, and errors minus those of the reference.
     #[must_use]
-    pub fn cost(&self, reference: &Reference) -> Cost {
+    pub fn cost(&self, reference: &Reference, clock: Clock) -> Cost {
         let Difference { squared, relative, .. } = self.difference;
-        Cost { mse: squared - reference.error, relative: relative - reference.relative_error, seconds: self.seconds }
+        let seconds = clock.seconds(self);
+        Cost { mse: squared - reference.error, relative: relative - reference.relative_error, seconds }
     }
 }
 
@@ -130,9 +132,30 @@ pub struct Plan {
     pub replicates: u32,
     /// Seed of the whole measurement.
     pub seed: u64,
+    /// Whether series that cannot win are measured no further, see [`HOPELESS`].
+    pub is_race: bool,
 }
 
+/// In a race, a series has no more images once its squared error × time is so many times that of the best at as many samples.
+pub const HOPELESS: f64 = 8.0;
+
 impl Plan {
+    /// Whether the images so far tell that a series cannot win.
+    fn is_hopeless(&self, rows: &Rows, key: &Key) -> bool {
+        let reference = &self.scenes[key.scene].reference;
+        // squared error × time of a series by its images of so many samples
+        let of = |key: &Key| {
+            let rows = rows.get(key)?;
+            let mean = |of: &dyn Fn(&Measurement) -> f64| rows.iter().map(of).sum::<f64>() / rows.len() as f64;
+            let mse = mean(&|row| row.difference.squared - reference.error).max(reference.error);
+            Some(mse * mean(&|row| row.cpu.unwrap_or(row.seconds)))
+        };
+        let spps = || self.keys.iter().map(|key| key.spp);
+        let last = spps().filter(|spp| *spp <= key.spp && rows.contains_key(&Key { spp: *spp, ..*key })).max();
+        let Some((last, own)) = last.and_then(|spp| Some((spp, of(&Key { spp, ..*key })?))) else { return false };
+        let others = self.keys.iter().filter(|other| other.scene == key.scene && other.spp <= last);
+        others.filter_map(of).any(|other| own > HOPELESS * other)
+    }
     /// The seed of an image, different for each, so that all images are independent.
     fn seed(&self, key: &Key, replicate: u32) -> u64 {
         let subject = &self.scenes[key.scene].name;
@@ -140,18 +163,19 @@ impl Plan {
         let text = format!("{subject}/{method}/{}/{}/{replicate}", key.sampler.name(), key.spp);
         self.seed.wrapping_add(fnv1a(text.as_bytes()))
     }
+    /// Number of samples in an image.
+    fn samples(&self, key: &Key) -> u64 {
+        let [width, height] = self.scenes[key.scene].size;
+        u64::from(width) * u64::from(height) * u64::from(key.spp)
+    }
     /// Number of samples in all images that are not yet measured.
     #[must_use]
     pub fn work(&self, rows: &Rows) -> u64 {
-        let samples = |key: &Key| {
-            let [width, height] = self.scenes[key.scene].size;
-            u64::from(width) * u64::from(height) * u64::from(key.spp)
-        };
         let left = |key: &Key| u64::from(self.replicates) - rows.get(key).map_or(0, |r| r.len() as u64);
-        self.keys.iter().map(|key| left(key) * samples(key)).sum()
+        self.keys.iter().map(|key| left(key) * self.samples(key)).sum()
     }
     /// Measures what is missing, and gives each row to `keep` before it adds it. Calls `progress` with numbers of samples. Returns early if
-    /// `stop` is set.
+    /// `stop` is set. Returns how many images a race left out.
     ///
     /// # Errors
     /// Fails if `keep` does.
@@ -161,11 +185,16 @@ impl Plan {
         keep: &mut Keep<'_>,
         stop: &AtomicBool,
         progress: &(dyn Fn(u64) + Sync),
-    ) -> Result<(), Box<dyn Error>> {
-        let mut last = None;
+    ) -> Result<usize, Box<dyn Error>> {
+        let (mut last, mut left_out) = (None, 0);
         for replicate in 0..self.replicates {
             for key in &self.keys {
                 if rows.get(key).is_some_and(|rows| rows.iter().any(|r| r.replicate == replicate)) {
+                    continue;
+                }
+                if self.is_race && self.is_hopeless(rows, key) {
+                    left_out += 1;
+                    progress(self.samples(key));
                     continue;
                 }
                 if last != Some(key.scene) {
@@ -174,14 +203,14 @@ impl Plan {
                     last = Some(key.scene);
                 }
                 if stop.load(Ordering::Relaxed) {
-                    return Ok(());
+                    return Ok(left_out);
                 }
                 let row = self.render(key, replicate, progress);
                 keep(&self.scenes[key.scene], key, &row)?;
                 rows.entry(*key).or_default().push(row);
             }
         }
-        Ok(())
+        Ok(left_out)
     }
     fn render(&self, key: &Key, replicate: u32, progress: &(dyn Fn(u64) + Sync)) -> Measurement {
         let subject = &self.scenes[key.scene];

@@ -22,10 +22,10 @@ pub struct Options {
     /// How to choose one of the lights
     #[arg(long = "choice", value_name = "CHOICES", value_parser = named::<ChoiceBy>(&ChoiceBy::NAMES), value_delimiter = ',', default_value = "auto")]
     pub choices: Vec<ChoiceBy>,
-    /// How to generate the random numbers [default: independent, sobol and adaptive; all with --quick and --long]
+    /// How to generate the random numbers [default: independent, sobol and adaptive; all with --long]
     #[arg(long, value_parser = named::<Sampler>(&Sampler::NAMES), value_delimiter = ',')]
     pub samplers: Vec<Sampler>,
-    /// Samples per pixel [default: 1,4,16,64,256, as far as the time allows; with --quick 1,4,16,64; with --long 1,2,4,…,1024]
+    /// Samples per pixel [default: 1,4,16,64,256, as far as the time allows; with --quick 4,8,16,64; with --long 1,2,4,…,1024]
     #[arg(long, value_delimiter = ',', value_parser = whole::<u32>(1..=MOST_SAMPLES.into()))]
     pub spp: Vec<u32>,
     /// Number of images per measurement, with different seeds [default: 5, or fewer if the time is short]
@@ -40,10 +40,10 @@ pub struct Options {
     /// Mean squared standard error of the reference, used if its file has no variance
     #[arg(long, value_name = "MSE", default_value_t = 0.0)]
     pub reference_error: f64,
-    /// Render the reference with this many samples per pixel [default without a built-in one: 4096, or fewer if the time is short; with --quick 1024]
+    /// Render the reference with this many samples per pixel [default without a built-in one: 4096, or fewer if the time is short; with --quick 256 by auto and adaptive]
     #[arg(long, value_name = "SPP", conflicts_with = "reference", value_parser = whole::<u32>(32..=MOST_SAMPLES.into()))]
     pub reference_spp: Option<u32>,
-    /// Image size in pixels [default: from the scene, or smaller if the time is short; with --quick at most half]
+    /// Image size in pixels [default: from the scene, or smaller if the time is short]
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<(u32, u32)>,
     /// Seed of the random numbers; different seeds give independent measurements
@@ -55,10 +55,10 @@ pub struct Options {
     /// The technique that all others are compared with
     #[arg(long, value_name = "TECHNIQUE", value_parser = named::<Technique>(&Technique::NAMES), hide_possible_values = true, default_value = "area")]
     pub baseline: Technique,
-    /// Take at most this many seconds [default: 300; with --quick 150; as long as needed with --long or --spp]
+    /// Take at most this many seconds [default: 300; with --quick 60; as long as needed with --long or --spp]
     #[arg(long, value_name = "SECONDS", value_parser = whole::<u64>(0..=u64::MAX))]
     pub time_limit: Option<u64>,
-    /// Measure small images with few samples, in less than three minutes
+    /// Measure in a minute: few samples, and of series that cannot win, few images
     #[arg(long)]
     pub quick: bool,
     /// Measure all samplers up to 1024 samples per pixel, for as long as that takes
@@ -81,7 +81,7 @@ impl Options {
     /// The samplers to measure.
     pub(super) fn samplers(&self) -> Vec<Sampler> {
         let some = [Sampler::Independent, Sampler::Sobol, Sampler::Adaptive];
-        chosen(&self.samplers, if self.quick || self.long { &Sampler::ALL } else { &some })
+        chosen(&self.samplers, if self.long { &Sampler::ALL } else { &some })
     }
 
     /// The numbers of samples per pixel to measure, in ascending order.
@@ -89,7 +89,7 @@ impl Options {
         let mut spps: Vec<u32> = match (self.quick, self.long) {
             _ if !self.spp.is_empty() => self.spp.clone(),
             (_, true) => (0..11).map(|k| 1 << k).collect(),
-            (true, _) => (0..4).map(|k| 1 << (2 * k)).collect(),
+            (true, _) => vec![4, 8, 16, 64],
             _ => (0..5).map(|k| 1 << (2 * k)).collect(),
         };
         spps.sort_unstable();
@@ -100,7 +100,7 @@ impl Options {
     /// The greatest number of seconds to take; `None` if that is not limited.
     pub(super) fn limit(&self) -> Option<u64> {
         let default = match () {
-            () if self.quick => Some(150),
+            () if self.quick => Some(60),
             () if self.long || !self.spp.is_empty() => None,
             () => Some(300),
         };

@@ -1,5 +1,6 @@
 //! The results of all measurements.
 
+use super::clock::Clock;
 use super::measure::{Plan, Rows};
 use super::summary::Summary;
 
@@ -10,6 +11,8 @@ pub struct Outcome {
     pub plan: Plan,
     /// The finished measurements.
     pub rows: Rows,
+    /// Which time counts.
+    pub clock: Clock,
     /// One summary per scene.
     pub summaries: Vec<Summary>,
     /// Names and values of the circumstances that the measurements depend on, such as the machine.

@@ -36,10 +36,7 @@ impl Loaded {
         let asked = Asked { sky: options.environment.clone(), ..Asked::default() };
         let scene = etendue_scene::load_as(path, &asked)?;
         let name = path.to_string_lossy().into_owned();
-        let (width, height) = options.size.unwrap_or_else(|| {
-            let shrink = |side: u32| if options.quick { (side / 2).max(1) } else { side };
-            (shrink(scene.film.width), shrink(scene.film.height))
-        });
+        let (width, height) = options.size.unwrap_or((scene.film.width, scene.film.height));
         let size = [width, height];
         let is_builtin = etendue_scene::builtin().iter().any(|(builtin, _)| *builtin == name);
         let is_own = is_builtin && options.reference_spp.is_none() && options.environment.is_none();
@@ -136,7 +133,8 @@ impl Loaded {
             Some(reference) => reference,
             None => {
                 let bar = bar(size.map(u64::from).iter().product(), &format!("reference of {name}"))?;
-                let reference = Reference::render(&world, size, reference_spp, &|done| bar.inc(done));
+                let settings = Reference::settings(size, reference_spp, options.quick);
+                let reference = Reference::render(&world, &settings, &|done| bar.inc(done));
                 bar.finish_and_clear();
                 reference
             }

@@ -1,54 +1,37 @@
 //! Writes the report: a self-contained page of charts and tables, with a description of the machine.
 
+use super::answer::{convention, percent as error_percent, seconds};
 use super::charts::{Against, Figure, Measure, id, with_interval};
 use super::outcome::Outcome;
 use super::plot::{color, dash, escape, short};
-use super::reference::KNOWN_TO;
-use super::stats::{Estimate, WIDEST};
-use super::summary::{Summary, Way};
+use super::stats::WIDEST;
+use super::summary::{ERRORS, Summary, Way};
 use etendue_render::Sampler;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// What every page has, and no other file.
 pub(super) const TITLE: &str = "<title>Speed against accuracy</title>";
 
-/// Formats a value with half of its interval in per cent.
-fn percent(e: &Estimate) -> String {
-    let interval = match e.relative() {
-        _ if !e.half.is_finite() => "?".to_owned(),
-        wide if wide >= 10.0 => ">999 %".to_owned(),
-        part => format!("{:.0} %", 100.0 * part),
-    };
-    format!("{} ±{interval}", short(e.value))
-}
-
 fn table(summary: &Summary) -> String {
-    let base = summary.baseline.map_or_else(String::new, |b| summary.series[b].way.title());
+    let columns = ERRORS.map(|error| format!("<th>seconds to {}</th>", error_percent(error))).concat();
     let mut text = format!(
-        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"series\"><table><tr><th>series</th><th>slope over samples</th><th>slope over time</th><th>error at {0} spp</th>\
-         <th>seconds at {0} spp</th><th>efficiency relative to {1}</th><th>bias</th></tr>\n",
-        summary.spp,
-        escape(&base),
+        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"series\"><table><tr><th>series</th>{columns}\
+         <th>slope of squared error over samples</th><th>bias</th></tr>\n"
     );
     let leaders = summary.leaders();
     for &index in &summary.ranking {
         let series = &summary.series[index];
         let unknown = || "?".to_owned();
-        let slope = |s: &Option<Estimate>| s.as_ref().map_or_else(unknown, |s| with_interval(s).replace('-', "−"));
-        let point = series.at(summary.spp);
-        let gain = summary.gains.iter().find(|g| g.series == index).map_or_else(unknown, |g| percent(&g.gain));
+        let slope = series.slope.as_ref().map_or_else(unknown, |s| with_interval(s).replace('-', "−"));
+        let reached = series.reaches.map(|reach| reach.map_or_else(unknown, |reach| seconds(&reach)));
         let _ = writeln!(
             text,
-            "<tr data-series=\"{}\"{}><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{gain}</td>\
-             <td>{}</td></tr>",
+            "<tr data-series=\"{}\"{}><td>{}</td><td>{}</td><td>{slope}</td><td>{}</td></tr>",
             escape(&id(series)),
             if leaders.contains(&index) { " data-best=\"\"" } else { " class=\"off\"" },
             escape(&series.way.title()),
-            slope(&series.slope),
-            slope(&series.slope_in_time),
-            point.map_or_else(unknown, |p| percent(&p.mse)),
-            point.map_or_else(unknown, |p| percent(&p.seconds)),
+            reached.join("</td><td>"),
             series.bias(summary.bias_limit),
         );
     }
@@ -56,21 +39,26 @@ fn table(summary: &Summary) -> String {
 }
 
 /// A section for each scene: charts and a table.
-fn sections(outcome: &Outcome, figures: &[Vec<Figure>]) -> String {
+fn sections(outcome: &Outcome, figures: &[Vec<Figure>], stems: &[String]) -> String {
     let mut text = String::new();
-    for (summary, figures) in outcome.summaries.iter().zip(figures) {
+    for ((summary, figures), stem) in outcome.summaries.iter().zip(figures).zip(stems) {
         let _ = writeln!(text, "<section class=\"scene\">\n<h2>{}</h2>\n<div class=\"grid\">", escape(&summary.scene));
         for figure in figures {
             let shown_for = figure.shown_for.map_or_else(String::new, |(against, measure)| {
-                let is_shown = against.is_shown() && measure == Measure::Mse;
+                let is_shown = against.is_shown(outcome.clock) && measure == Measure::Rms;
                 let class = if is_shown { "" } else { " class=\"off\"" };
                 format!("{class} data-against=\"{}\" data-measure=\"{}\"", against.name(), measure.name())
             });
             let caption = escape(&figure.caption);
             let drawing = figure.drawing.inline();
-            let _ = writeln!(text, "<figure{shown_for}>{drawing}<figcaption>{caption}</figcaption></figure>");
+            let file = format!("{stem}-{}.svg", figure.file);
+            let link = format!(
+                "<a href=\"{0}\" title=\"{0}: the series shown at first, with a legend\">SVG</a>",
+                escape(&file)
+            );
+            let _ = writeln!(text, "<figure{shown_for}>{drawing}<figcaption>{caption} {link}</figcaption></figure>");
         }
-        text += "</div>\n";
+        text += "</div>\n<p class=\"empty off\">No series is selected: choose a technique and a sampler above.</p>\n";
         text += &table(summary);
         text += "</section>\n";
     }
@@ -86,7 +74,14 @@ fn chip(value: &str, is_pressed: bool, sample: &str) -> String {
 /// Buttons for the techniques, the samplers, what errors are drawn against and which errors are drawn.
 fn chips(outcome: &Outcome) -> [String; 4] {
     let ways = || outcome.summaries.iter().flat_map(|summary| &summary.series).map(|series| series.way);
-    let methods: BTreeMap<_, Way> = ways().map(|way| ((way.technique as usize, way.choice as usize), way)).collect();
+    // in the order in which they reach an error
+    let ranked = || outcome.summaries.iter().flat_map(|s| s.ranking.iter().map(|index| s.series[*index].way));
+    let mut methods: Vec<Way> = Vec::new();
+    for way in ranked() {
+        if methods.iter().all(|other| other.method() != way.method()) {
+            methods.push(way);
+        }
+    }
     let technique =
         |way: &Way| chip(&way.method(), true, &format!("<i style=\"background:{}\"></i>", color(way.color())));
     let sampler = |sampler: &Sampler| {
@@ -96,10 +91,10 @@ fn chips(outcome: &Outcome) -> [String; 4] {
     };
     let measured = |sampler: &&Sampler| ways().any(|way| way.sampler == **sampler);
     [
-        methods.values().map(technique).collect(),
+        methods.iter().map(technique).collect(),
         Sampler::ALL.iter().filter(measured).map(sampler).collect(),
-        Against::ALL.map(|against| chip(against.name(), against.is_shown(), "")).concat(),
-        Measure::ALL.map(|measure| chip(measure.name(), measure == Measure::Mse, "")).concat(),
+        Against::ALL.map(|against| chip(against.name(), against.is_shown(outcome.clock), "")).concat(),
+        Measure::ALL.map(|measure| chip(measure.name(), measure == Measure::Rms, "")).concat(),
     ]
 }
 
@@ -126,21 +121,36 @@ fn facts(outcome: &Outcome, command: &str) -> String {
     facts.into_iter().chain(scenes).map(row).collect()
 }
 
-/// The whole page.
+/// What the page begins with: for each scene, after how many seconds which errors are reached.
+fn answers(outcome: &Outcome) -> String {
+    let mut text = String::new();
+    for summary in &outcome.summaries {
+        let sentences = summary.sentences();
+        let none = || vec!["no error is large enough to be measured".to_owned()];
+        let sentences = if sentences.is_empty() { none() } else { sentences };
+        let items: String = sentences.iter().map(|sentence| format!("<li>{}</li>\n", escape(sentence))).collect();
+        let _ =
+            writeln!(text, "<h2 class=\"answer\">{}</h2>\n<ul class=\"best\">\n{items}</ul>", escape(&summary.scene));
+    }
+    let remark =
+        outcome.clock.remark().map_or_else(String::new, |remark| format!("<p>Here {}.</p>\n", escape(&remark)));
+    text + &remark
+}
+
+/// The whole page, beside which are the charts, in files that begin with these stems.
 #[must_use]
-pub fn page(outcome: &Outcome, figures: &[Vec<Figure>], command: &str) -> String {
+pub fn page(outcome: &Outcome, figures: &[Vec<Figure>], stems: &[String], command: &str) -> String {
     let [techniques, samplers, against, measures] = chips(outcome);
-    let best: String = outcome.summaries.iter().map(|s| format!("<li>{}</li>\n", escape(&s.headline()))).collect();
     let notes: String = outcome.notes.iter().map(|n| format!("<p>{}</p>\n", escape(n))).collect();
     include_str!("report.html")
-        .replace("{{known}}", &format!("{:.0}", 100.0 * KNOWN_TO))
         .replace("{{widest}}", &format!("{:.0}", 100.0 * WIDEST))
-        .replace("{{best}}", &best)
+        .replace("{{answers}}", &answers(outcome))
+        .replace("{{convention}}", &escape(&convention()))
         .replace("{{notes}}", &notes)
         .replace("{{techniques}}", &techniques)
         .replace("{{samplers}}", &samplers)
         .replace("{{against}}", &against)
         .replace("{{measures}}", &measures)
         .replace("{{facts}}", &facts(outcome, command))
-        .replace("{{scenes}}", &sections(outcome, figures))
+        .replace("{{scenes}}", &sections(outcome, figures, stems))
 }

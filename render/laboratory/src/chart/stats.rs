@@ -99,26 +99,6 @@ pub struct Cost {
     pub seconds: f64,
 }
 
-/// Efficiency of `a` relative to `b`, where efficiency is 1/(MSE × time) of the means.
-///
-/// Replicates of the same round are paired, so that a slow round affects neither. The interval is that of the logarithm, to first
-/// order in the relative errors (the delta method): `value / factor` to `value × factor`, with `half = value (factor − 1)`. `None`
-/// if a mean is not positive.
-#[must_use]
-pub fn gain(a: &[Cost], b: &[Cost]) -> Option<Estimate> {
-    let n = a.len().min(b.len());
-    let mean = |c: &[Cost], f: fn(&Cost) -> f64| c[..n].iter().map(f).sum::<f64>() / n as f64;
-    let of = |c: &[Cost]| [mean(c, |c| c.mse), mean(c, |c| c.seconds)];
-    let ([am, at], [bm, bt]) = (of(a), of(b));
-    if n == 0 || [am, at, bm, bt].iter().any(|x| !x.is_finite() || *x <= 0.0) {
-        return None;
-    }
-    let value = bm * bt / (am * at);
-    let influence: Vec<f64> =
-        (0..n).map(|i| b[i].mse / bm + b[i].seconds / bt - a[i].mse / am - a[i].seconds / at).collect();
-    Some(Estimate { value, half: value * Estimate::of(&influence).half.exp_m1() })
-}
-
 /// Mean over the replicates of the least-squares slope of log y over log x. Every replicate has one y for each x.
 ///
 /// `None` if there are fewer than two different x, or if a value is not positive.
@@ -135,19 +115,70 @@ pub fn slope(x: &[f64], replicates: &[Vec<f64>]) -> Option<Estimate> {
     Some(Estimate::of(&replicates.iter().map(one).collect::<Vec<_>>()))
 }
 
-/// The y at `x` of a polyline through points (x, y), in logarithms. Beyond its ends, y falls as 1/x. `None` without a positive point.
-#[must_use]
-pub fn level(points: &[(f64, f64)], x: f64) -> Option<f64> {
-    let mut points: Vec<_> = points.iter().copied().filter(|p| p.0 > 0.0 && p.1 > 0.0).collect();
-    points.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let (first, last) = (points.first()?, points.last()?);
-    for (end, beyond) in [(first, x <= first.0), (last, x >= last.0)] {
-        if beyond {
-            return Some(end.1 * end.0 / x);
-        }
+/// When a series reaches an error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reach {
+    /// Seconds of an image with this error.
+    pub seconds: f64,
+    /// The 95 % interval is from `seconds / factor` to `seconds × factor`; infinite if the spread is unknown.
+    pub factor: f64,
+    /// Whether the error is smaller than that of any image that was measured.
+    pub is_beyond: bool,
+    /// Whether the shortest image has a smaller error: the error is reached after at most these seconds.
+    pub is_upper_bound: bool,
+}
+
+/// Factor for which an unknown interval counts where series are compared.
+pub const UNKNOWN: f64 = 4.0;
+
+impl Reach {
+    fn spread(&self) -> f64 {
+        if self.factor.is_finite() { self.factor } else { UNKNOWN }
     }
-    let [a, b] = points.windows(2).find(|p| x < p[1].0).and_then(|p| <[_; 2]>::try_from(p).ok())?;
-    Some(a.1 * (b.1 / a.1).powf((x / a.0).ln() / (b.0 / a.0).ln()))
+    /// Lower end of the interval.
+    #[must_use]
+    pub fn low(&self) -> f64 {
+        if self.is_upper_bound { 0.0 } else { self.seconds / self.spread() }
+    }
+    /// Upper end of the interval.
+    #[must_use]
+    pub fn high(&self) -> f64 {
+        self.seconds * self.spread()
+    }
+}
+
+/// When a series with these costs at ascending numbers of samples reaches a mean squared error, of which `known` is how well the reference
+/// is known: between two images by a straight line in logarithms, after the last as 1/time. `None` without a positive error.
+///
+/// The interval is that of the logarithm over replicates, each of which has a line of its own.
+#[must_use]
+pub fn reach(points: &[&[Cost]], mse: f64, known: f64) -> Option<Reach> {
+    let mean = |costs: &[Cost], of: fn(&Cost) -> f64| costs.iter().map(of).sum::<f64>() / costs.len() as f64;
+    let of = |costs: &&&[Cost]| mean(costs, |c| c.mse) > 0.0;
+    let points: Vec<&[Cost]> = points.iter().filter(of).copied().collect();
+    let above = points.iter().rposition(|costs| mean(costs, |c| c.mse) > mse);
+    let is_upper_bound = above.is_none();
+    let start = points.get(above.unwrap_or(0))?;
+    let end = above.and_then(|above| points.get(above + 1));
+    // logarithms of time and error at both ends, and of the time between them
+    let time = |[t, m]: [f64; 2], end: Option<[f64; 2]>| {
+        let slope = end.map_or(-1.0, |[u, n]| (u - t) / (n - m));
+        (if is_upper_bound { t } else { t + slope * (mse.ln() - m) }, slope)
+    };
+    let logs = |c: [f64; 2]| c.map(f64::ln);
+    let whole = |costs: &[Cost]| logs([mean(costs, |c| c.seconds), mean(costs, |c| c.mse)]);
+    let (value, slope) = time(whole(start), end.map(|end| whole(end)));
+    let count = end.map_or(usize::MAX, |end| end.len()).min(start.len());
+    let single = |c: &Cost| logs([c.seconds, c.mse]);
+    let each: Vec<f64> = (0..count).map(|i| time(single(&start[i]), end.map(|end| single(&end[i]))).0).collect();
+    let half = if each.iter().all(|x| x.is_finite()) { Estimate::of(&each).half } else { f64::INFINITY };
+    let reference = if is_upper_bound { 0.0 } else { (slope * known / mse).abs() };
+    Some(Reach {
+        seconds: value.exp(),
+        factor: (half + reference).exp(),
+        is_beyond: above.is_some() && end.is_none(),
+        is_upper_bound,
+    })
 }
 
 #[cfg(test)]
@@ -179,22 +210,19 @@ mod tests {
                 let e = Estimate::of(&(0..n).map(|_| 3.0 + 0.5 * normal(s)).collect::<Vec<_>>());
                 (e.value - 3.0).abs() <= e.half
             }));
-            // a relative efficiency of 6, noise of a few per cent, and rounds that are slow for both
+            // an error that is reached between two images, at 1.5 s, with noise of a few per cent in errors and times
             nineteen_of_twenty(share(|s| {
-                let (mut a, mut b) = (Vec::new(), Vec::new());
-                for _ in 0..n {
-                    let slow = 1.0 + random(s);
-                    let mut one = |mse: f64, seconds: f64| Cost {
+                let [a, b] = [(1.0, 1.0), (2.0, 0.3)].map(|(seconds, mse)| {
+                    let mut one = |_| Cost {
                         mse: mse * (1.0 + 0.03 * normal(s)),
                         relative: 1.0,
-                        seconds: seconds * slow * (1.0 + 0.02 * normal(s)),
+                        seconds: seconds * (1.0 + 0.02 * normal(s)),
                     };
-                    a.push(one(1.0, 2.0));
-                    b.push(one(4.0, 3.0));
-                }
-                let g = gain(&a, &b).unwrap();
-                let factor = 1.0 + g.half / g.value;
-                g.value / factor <= 6.0 && 6.0 <= g.value * factor
+                    (0..n).map(&mut one).collect::<Vec<_>>()
+                });
+                let mse = 0.3_f64.powf(1.5_f64.log2());
+                let reach = reach(&[&a, &b], mse, 0.0).unwrap();
+                reach.low() <= 1.5 && 1.5 <= reach.high() || !reach.factor.is_finite()
             }));
             let x = [1.0_f64, 4.0, 16.0, 64.0];
             nineteen_of_twenty(share(|s| {
@@ -212,8 +240,8 @@ mod tests {
         assert!(!Estimate::of(&[2.0]).is_sure() && !Estimate { value: -1.0, half: 0.0 }.is_sure());
         assert!(Estimate { value: 1.0, half: 0.29 }.is_sure() && !Estimate { value: 1.0, half: 0.31 }.is_sure());
         let cost = |mse| Cost { mse, relative: mse, seconds: 1.0 };
-        assert_eq!(gain(&[cost(-1.0), cost(0.5)], &[cost(1.0), cost(1.0)]), None);
-        assert_eq!(gain(&[], &[cost(1.0)]), None);
+        assert_eq!(reach(&[&[cost(2.0)]], 1.0, 0.0).map(|reach| reach.factor), Some(f64::INFINITY));
+        assert_eq!(reach(&[], 1.0, 0.0), None);
         assert_eq!(slope(&[1.0, 2.0], &[vec![1.0, -1.0]]), None);
         assert_eq!(slope(&[2.0, 2.0], &[vec![1.0, 1.0]]), None);
     }
@@ -235,12 +263,26 @@ mod tests {
         assert_eq!(student(1, 0.05), f64::INFINITY);
     }
 
+    /// A line of slope −2 in logarithms, then −1 as no image goes on: by hand.
     #[test]
-    fn a_line_has_a_level_within_and_beyond() {
-        let line = [(1.0, 1.0), (2.0, 0.5), (8.0, 0.25)];
-        for (x, y) in [(0.5, 2.0), (1.0, 1.0), (2.0, 0.5), (4.0, 0.5_f64.powf(1.5)), (8.0, 0.25), (16.0, 0.125)] {
-            assert!((level(&line, x).unwrap() / y - 1.0).abs() < 1e-12, "{x}");
+    fn errors_are_reached_between_images_and_after_the_last() {
+        let at = |seconds: f64, mse: f64| [1.0, 1.02, 0.98].map(|f| Cost { mse: mse * f, relative: 1.0, seconds });
+        let (a, b) = (at(1.0, 1.0), at(2.0, 0.25));
+        let reached = |mse: f64| reach(&[&a, &b], mse, 0.0).unwrap();
+        for (mse, seconds) in [(0.25, 2.0), (0.5, 2.0_f64.sqrt()), (0.125, 4.0), (0.01, 50.0)] {
+            assert!((reached(mse).seconds / seconds - 1.0).abs() < 1e-12, "{mse}: {:?}", reached(mse));
+            assert_eq!((reached(mse).is_beyond, reached(mse).is_upper_bound), (mse < 0.25, false));
         }
-        assert_eq!(level(&[(1.0, -1.0)], 2.0), None);
+        assert!(reached(1.5).is_upper_bound && reached(1.5).seconds == 1.0 && reached(1.5).low() == 0.0);
+        // three images that differ by 2 %: ±2 % × 4.3 / √3 in error, half of that in time where the slope is −2
+        let factor = |mse: f64| reached(mse).factor.ln();
+        assert!((factor(0.01) / (4.302_65 * 0.02 / 3_f64.sqrt()) - 1.0).abs() < 0.01, "{}", factor(0.01));
+        assert!((factor(0.5) / (0.5 * factor(0.01)) - 1.0).abs() < 0.01, "{}", factor(0.5));
+        // a reference whose error is known to a tenth of the target
+        let rough = reach(&[&a, &b], 0.01, 0.001).unwrap();
+        assert!((rough.factor / reached(0.01).factor / 0.1_f64.exp() - 1.0).abs() < 1e-12);
+        assert_eq!(reach(&[&at(1.0, -1.0)], 0.01, 0.0), None);
+        // an error that rises again was not reached
+        assert!((reach(&[&b, &a, &at(4.0, 0.5)], 0.5 + 1e-9, 0.0).unwrap().seconds / 4.0 - 1.0).abs() < 1e-6);
     }
 }

@@ -1,10 +1,15 @@
 //! Summarises measurements for the charts.
 
-use super::measure::{Key, Measurement, Plan, Rows, method};
-use super::plot::short;
-use super::reference::KNOWN_TO;
-use super::stats::{self, Cost, Estimate};
+use super::clock::Clock;
+use super::measure::{ChartedScene, Key, Measurement, Plan, Rows, method};
+use super::reference::Reference;
+use super::stats::{self, Cost, Estimate, Reach};
 use etendue_render::{ChoiceBy, Sampler, Technique};
+
+/// The errors whose times are compared: relative RMS, the root of the mean squared error over the mean of the reference.
+pub const ERRORS: [f64; 3] = [0.03, 0.01, 0.003];
+/// The one of them by which series are ordered.
+pub(super) const ORDER: usize = 1;
 
 /// A technique with a choice of a light and a sampler.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,7 +34,8 @@ impl Way {
         self.technique as usize + self.choice as usize
     }
     /// Technique and sampler in a sentence, such as `area with stratified`.
-    fn phrase(&self) -> String {
+    #[must_use]
+    pub fn phrase(&self) -> String {
         format!("{} with {}", self.method(), self.sampler.name())
     }
     /// Name of technique and sampler, such as `area, stratified`.
@@ -48,7 +54,9 @@ pub struct Point {
     pub mse: Estimate,
     /// Mean squared error relative to the square of the reference, see [`super::reference::Difference::relative`], likewise.
     pub relative: Estimate,
-    /// Rendering time of an image in seconds.
+    /// Rendering time of an image in seconds on the wall.
+    pub wall: Estimate,
+    /// The time that counts, in seconds.
     pub seconds: Estimate,
     /// Seconds that all threads together ran for an image, where the system tells.
     pub cpu: Option<Estimate>,
@@ -63,17 +71,17 @@ pub struct Point {
 }
 
 impl Point {
-    fn new(spp: u32, rows: &[Measurement], plan: &Plan, key: &Key) -> Self {
-        let reference = &plan.scenes[key.scene].reference;
-        let costs: Vec<Cost> = rows.iter().map(|r| r.cost(reference)).collect();
+    fn new(spp: u32, rows: &[Measurement], reference: &Reference, clock: Clock) -> Self {
+        let costs: Vec<Cost> = rows.iter().map(|r| r.cost(reference, clock)).collect();
         // the errors of the reference were taken off, and are known to some per cent
         let less_reference = |of: fn(&Cost) -> f64, error: f64| {
             let estimate = Estimate::of(&costs.iter().map(of).collect::<Vec<_>>());
-            Estimate { half: estimate.half + KNOWN_TO * error, ..estimate }
+            Estimate { half: estimate.half + reference.known_to * error, ..estimate }
         };
         let mse = less_reference(|c| c.mse, reference.error);
         let relative = less_reference(|c| c.relative, reference.relative_error);
         let seconds = Estimate::of(&costs.iter().map(|c| c.seconds).collect::<Vec<_>>());
+        let wall = Estimate::of(&rows.iter().map(|r| r.seconds).collect::<Vec<_>>());
         let cpu = rows.iter().map(|r| r.cpu).collect::<Option<Vec<_>>>().map(|cpu| Estimate::of(&cpu));
         let n = rows.len() as f64;
         let rays = rows.iter().map(|r| r.rays.iter().sum::<u64>() as f64).sum::<f64>() / n;
@@ -81,12 +89,7 @@ impl Point {
         let own = reference.error / reference.picture.radiance.len() as f64;
         let (mean, deviation) = stats::moments(&rows.iter().map(|r| r.difference.mean).collect::<Vec<_>>());
         let bias = if rows.len() < 2 { f64::NAN } else { mean / (deviation * deviation / n + own).sqrt() };
-        Self { spp, mse, relative, seconds, cpu, rays, offset: mean / reference.mean(), bias, costs }
-    }
-    /// Whether the intervals of both error and time are narrow enough to support a claim.
-    #[must_use]
-    pub fn is_sure(&self) -> bool {
-        self.mse.is_sure() && self.seconds.is_sure()
+        Self { spp, mse, relative, wall, seconds, cpu, rays, offset: mean / reference.mean(), bias, costs }
     }
 }
 
@@ -99,31 +102,21 @@ pub struct Series {
     pub points: Vec<Point>,
     /// Slope of log MSE over log samples per pixel, from the points with narrow intervals.
     pub slope: Option<Estimate>,
-    /// Slope of log MSE over log time, likewise.
-    pub slope_in_time: Option<Estimate>,
+    /// When it reaches each of the [`ERRORS`].
+    pub reaches: [Option<Reach>; ERRORS.len()],
 }
 
 impl Series {
-    fn new(way: Way, points: Vec<Point>) -> Self {
-        let of = |sure: fn(&Point) -> bool, x: fn(&Point) -> f64| {
-            let sure: Vec<&Point> = points.iter().filter(|p| sure(p)).collect();
-            let replicates = sure.iter().map(|p| p.costs.len()).min().unwrap_or(0);
-            let errors = |r: usize| sure.iter().map(|p| p.costs[r].mse).collect();
-            let errors: Vec<Vec<f64>> = (0..replicates).map(errors).collect();
-            stats::slope(&sure.iter().map(|p| x(p)).collect::<Vec<_>>(), &errors)
-        };
-        let slope = of(|p| p.mse.is_sure(), |p| f64::from(p.spp));
-        let slope_in_time = of(Point::is_sure, |p| p.seconds.value);
-        Self { way, points, slope, slope_in_time }
-    }
-    /// Squared error that an image of this many seconds has, from the points with narrow intervals or, if there are none, from all.
-    #[must_use]
-    pub fn error_in(&self, seconds: f64) -> Option<f64> {
-        let of = |sure: bool| {
-            let points: Vec<_> = self.points.iter().filter(|p| !sure || p.is_sure()).collect();
-            stats::level(&points.iter().map(|p| (p.seconds.value, p.mse.value)).collect::<Vec<_>>(), seconds)
-        };
-        of(true).or_else(|| of(false))
+    fn new(way: Way, points: Vec<Point>, reference: &Reference) -> Self {
+        let sure: Vec<&Point> = points.iter().filter(|p| p.mse.is_sure()).collect();
+        let replicates = sure.iter().map(|p| p.costs.len()).min().unwrap_or(0);
+        let errors = |r: usize| sure.iter().map(|p| p.costs[r].mse).collect();
+        let errors: Vec<Vec<f64>> = (0..replicates).map(errors).collect();
+        let slope = stats::slope(&sure.iter().map(|p| f64::from(p.spp)).collect::<Vec<_>>(), &errors);
+        let costs: Vec<&[Cost]> = points.iter().map(|p| &*p.costs).collect();
+        let known = reference.known_to * reference.error;
+        let reaches = ERRORS.map(|error| stats::reach(&costs, (error * reference.mean()).powi(2), known));
+        Self { way, points, slope, reaches }
     }
     /// What is found of a bias: the points whose mean differs from the reference by more than `limit` standard errors, or that there are none.
     #[must_use]
@@ -137,20 +130,6 @@ impl Series {
             .collect();
         if list.is_empty() { "none found".to_owned() } else { list.join(", ") }
     }
-    /// The point at this number of samples per pixel.
-    #[must_use]
-    pub fn at(&self, spp: u32) -> Option<&Point> {
-        self.points.iter().find(|p| p.spp == spp)
-    }
-}
-
-/// Efficiency of a series relative to the baseline.
-#[derive(Clone, Copy, Debug)]
-pub struct Gain {
-    /// Index of the series.
-    pub series: usize,
-    /// Efficiency as a multiple of the baseline's.
-    pub gain: Estimate,
 }
 
 /// The results for one scene.
@@ -162,48 +141,35 @@ pub struct Summary {
     pub series: Vec<Series>,
     /// Index of the baseline series.
     pub baseline: Option<usize>,
-    /// Samples per pixel at which efficiencies are compared.
-    pub spp: u32,
-    /// Efficiencies relative to the baseline at `spp`.
-    pub gains: Vec<Gain>,
-    /// Seconds per image at which errors are compared: the shortest time of a series at `spp`.
-    pub seconds: f64,
+    /// Which time counts.
+    pub clock: Clock,
+    /// Mean of the reference over pixels and channels.
+    pub mean: f64,
     /// The number of standard errors beyond which chance brings a difference from the reference in one of twenty charts.
     pub bias_limit: f64,
-    /// Indices of the series by their error after `seconds`, the least first; series without a positive error come last.
+    /// Indices of the series by their time to an error of 1 %, the shortest first; series without a positive error come last.
     pub ranking: Vec<usize>,
 }
 
 impl Summary {
     /// Summarises scene `scene` of a plan. If `baseline` was not measured, the first series takes its place.
     #[must_use]
-    pub fn new(plan: &Plan, rows: &Rows, scene: usize, baseline: Way) -> Self {
-        let series = lines(plan, rows, scene);
+    pub fn new(plan: &Plan, rows: &Rows, scene: usize, baseline: Way, clock: Clock) -> Self {
+        let series = lines(plan, rows, scene, clock);
         let found = series.iter().position(|s| s.way == baseline);
         let baseline = found.or(if series.is_empty() { None } else { Some(0) });
-        let spp = common_spp(&series, baseline);
-        let mut gains = Vec::new();
-        if let Some(base) = baseline.and_then(|b| series[b].at(spp)) {
-            for (index, one) in series.iter().enumerate() {
-                if let Some(gain) = one.at(spp).and_then(|p| stats::gain(&p.costs, &base.costs)) {
-                    gains.push(Gain { series: index, gain });
-                }
-            }
-        }
-        let at_spp = series.iter().filter_map(|s| s.at(spp));
-        let seconds = at_spp.map(|p| p.seconds.value).fold(f64::INFINITY, f64::min);
-        let errors: Vec<f64> = series.iter().map(|s| s.error_in(seconds).unwrap_or(f64::INFINITY)).collect();
+        let time = |index: usize| series[index].reaches[ORDER].map_or(f64::INFINITY, |reach| reach.seconds);
         let mut ranking: Vec<usize> = (0..series.len()).collect();
-        ranking.sort_by(|a, b| errors[*a].total_cmp(&errors[*b]));
+        ranking.sort_by(|a, b| time(*a).total_cmp(&time(*b)));
         // Bonferroni's correction: the points of a chart together are wrong once in twenty times
         let judged = series.iter().flat_map(|s| &s.points).filter(|p| !p.bias.is_nan());
         let replicates = judged.clone().map(|p| p.costs.len()).min().unwrap_or(0);
         let bias_limit = stats::student(replicates, 0.05 / judged.count().max(1) as f64);
-        let scene = plan.scenes[scene].name.clone();
-        Self { scene, series, baseline, spp, gains, seconds, bias_limit, ranking }
+        let ChartedScene { name, reference, .. } = &plan.scenes[scene];
+        Self { scene: name.clone(), series, baseline, clock, mean: reference.mean(), bias_limit, ranking }
     }
 
-    /// The best series of each technique and choice, the least error first.
+    /// The best series of each technique and choice, the first to reach 1 % first.
     #[must_use]
     pub fn leaders(&self) -> Vec<usize> {
         let mut methods = Vec::new();
@@ -248,52 +214,11 @@ impl Summary {
             ways().any(|w| w.sampler != first.sampler),
         ]
     }
-
-    /// One line: which series has the least error at equal time, and how that compares with the best series of another technique, or of
-    /// another choice of a light where the technique is one, and with the baseline.
-    #[must_use]
-    pub fn headline(&self) -> String {
-        let error = |index: usize| self.series[index].error_in(self.seconds);
-        let Some((best, least)) = self.ranking.first().and_then(|&best| Some((best, error(best)?))) else {
-            return format!("{} — no error is large enough to be measured", self.scene);
-        };
-        let way = |index: usize| self.series[index].way;
-        let mut line = format!("{} — best: {}", self.scene, way(best).phrase());
-        let [is_technique, ..] = self.varies();
-        let differs = |other: &usize| {
-            if is_technique {
-                way(*other).technique != way(best).technique
-            } else {
-                way(*other).choice != way(best).choice
-            }
-        };
-        let other = self.ranking.iter().copied().find(differs);
-        let kind = if is_technique { "technique" } else { "choice" };
-        let mut compared: Vec<(usize, String)> = Vec::new();
-        compared.extend(other.map(|other| (other, format!("{}, the best other {kind}", way(other).phrase()))));
-        let baseline = self.baseline.filter(|b| *b != best && Some(*b) != other);
-        compared.extend(baseline.map(|baseline| {
-            let is_plain = way(baseline).technique == Technique::Area && way(baseline).sampler == Sampler::Independent;
-            (baseline, if is_plain { "plain area sampling".to_owned() } else { way(baseline).phrase() })
-        }));
-        let sure = |index: usize| self.series[index].points.iter().any(Point::is_sure);
-        let all_sure = sure(best) && compared.iter().all(|(index, _)| sure(*index));
-        let parts: Vec<String> = compared
-            .into_iter()
-            .filter_map(|(index, name)| Some(format!("1/{} of that of {name}", short(error(index)? / least))))
-            .collect();
-        if !parts.is_empty() {
-            line += &format!("; its squared error after {} s is {}", short(self.seconds), parts.join(", and "));
-        }
-        if !all_sure {
-            line += "; uncertain, because the intervals are wide";
-        }
-        line
-    }
 }
 
 /// The series of a scene, in the order of `etendue list`.
-fn lines(plan: &Plan, rows: &Rows, scene: usize) -> Vec<Series> {
+fn lines(plan: &Plan, rows: &Rows, scene: usize, clock: Clock) -> Vec<Series> {
+    let reference = &plan.scenes[scene].reference;
     let way_of = |key: &Key| Way { technique: key.technique, choice: key.choice, sampler: key.sampler };
     let keys = || plan.keys.iter().filter(|k| k.scene == scene);
     let mut ways: Vec<Way> = Vec::new();
@@ -307,19 +232,11 @@ fn lines(plan: &Plan, rows: &Rows, scene: usize) -> Vec<Series> {
     for way in ways {
         let measured = keys().filter(|key| way_of(key) == way);
         let mut points: Vec<Point> =
-            measured.filter_map(|key| Some(Point::new(key.spp, rows.get(key)?, plan, key))).collect();
+            measured.filter_map(|key| Some(Point::new(key.spp, rows.get(key)?, reference, clock))).collect();
         points.sort_by_key(|p| p.spp);
         if !points.is_empty() {
-            series.push(Series::new(way, points));
+            series.push(Series::new(way, points, reference));
         }
     }
     series
-}
-
-/// The largest sample count among those that most series have, and that the baseline has.
-fn common_spp(series: &[Series], baseline: Option<usize>) -> u32 {
-    let measured = |spp: u32| series.iter().filter(|s| s.at(spp).is_some_and(|p| p.costs.len() > 1)).count();
-    let all = series.iter().flat_map(|s| s.points.iter().map(|p| p.spp));
-    let in_baseline = |spp: &u32| baseline.is_none_or(|b| series[b].at(*spp).is_some());
-    all.filter(in_baseline).max_by_key(|&n| (measured(n), n)).unwrap_or(0)
 }

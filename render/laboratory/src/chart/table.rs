@@ -1,5 +1,6 @@
 //! The CSV file of measurements, from which a later run goes on.
 
+use super::clock::Clock;
 use super::measure::{ChartedScene, Key, Measurement, Plan, Rows};
 use etendue_render::{ChoiceBy, Sampler, Technique};
 use serde::{Deserialize, Serialize};
@@ -100,7 +101,7 @@ impl MeasurementFile {
     }
 
     pub(super) fn append(&mut self, scene: &ChartedScene, key: &Key, row: &Measurement) -> Result<(), Box<dyn Error>> {
-        let (cost, [width, height]) = (row.cost(&scene.reference), scene.size);
+        let (cost, [width, height]) = (row.cost(&scene.reference, Clock::Wall), scene.size);
         let derived: Derived = (width, height, scene.reference.error, cost.mse, cost.relative);
         self.writer.serialize((Subject::new(scene, key), row, derived))?;
         self.writer.flush()?;

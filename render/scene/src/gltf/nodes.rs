@@ -5,14 +5,17 @@ use crate::message::shortened;
 use crate::nearest::did_you_mean;
 use crate::transform::Transform;
 use etendue_render::scene::Message;
-use gltf_json::Index;
 use gltf_json::scene::{Node, Scene};
+use gltf_json::{Accessor, Index};
 
 /// Greatest depth of the node tree.
 const DEEPEST: usize = 1024;
 
 /// The extension of nodes that place a mesh several times.
 pub(super) const INSTANCING: &str = "EXT_mesh_gpu_instancing";
+
+/// Most copies whose places are in no buffer: there, a number of a few digits would take any time and memory.
+const MOST_ALIKE: u64 = 1024;
 
 /// A node of the scene.
 #[derive(Clone, Copy, Debug)]
@@ -107,9 +110,20 @@ pub(super) fn copies(source: &Source<'_>, index: usize) -> Result<Vec<Transform>
             Ok(Some(Index::new(number.ok_or_else(wrong)?)))
         }
     };
-    let shifts = accessor("TRANSLATION")?.map(|at| source.vectors::<3>(at, &item)).transpose()?;
-    let rotations = accessor("ROTATION")?.map(|at| source.vectors::<4>(at, &item)).transpose()?;
-    let scales = accessor("SCALE")?.map(|at| source.vectors::<3>(at, &item)).transpose()?;
+    let attributes = [accessor("TRANSLATION")?, accessor("ROTATION")?, accessor("SCALE")?];
+    let has_data = |at: &Index<Accessor>| {
+        let accessor = source.root.accessors.get(at.value());
+        accessor.is_some_and(|a| a.buffer_view.is_some() || a.sparse.is_some() || a.count.0 <= MOST_ALIKE)
+    };
+    if attributes.iter().flatten().any(|at| !has_data(at)) {
+        return Err(
+            source.message(format!("{item}: more than {MOST_ALIKE} copies by an accessor without a bufferView"))
+        );
+    }
+    let [shifts, rotations, scales] = attributes;
+    let shifts = shifts.map(|at| source.vectors::<3>(at, &item)).transpose()?;
+    let rotations = rotations.map(|at| source.vectors::<4>(at, &item)).transpose()?;
+    let scales = scales.map(|at| source.vectors::<3>(at, &item)).transpose()?;
     let counts = [shifts.as_ref().map(Vec::len), rotations.as_ref().map(Vec::len), scales.as_ref().map(Vec::len)];
     let count = counts.into_iter().flatten().max().unwrap_or(0);
     if counts.into_iter().flatten().any(|other| other != count) {

@@ -7,6 +7,7 @@ use crate::transform::{Transform, length, scaled};
 use etendue_render::scene::area::{Area, PlaceInImage};
 use etendue_render::scene::limits::{MOST_SAMPLES, is_size};
 use etendue_render::scene::{CameraSettings, FilmSettings, Lens, Message, Screen};
+use std::path::Path;
 
 /// Reads a `Camera`, which looks along +z of camera space, its transform to world space, and the time of exposure, whose unit
 /// pbrt does not tell. `ctm` is the transform from world space.
@@ -135,7 +136,9 @@ pub(super) fn film(kind: &str, params: &mut Params) -> Result<FilmSettings, Mess
     if !(1e-2..=1e6).contains(&diagonal) {
         return Err(params.error(format!("\"diagonal\": must be from 1e-2 to 1e6 mm, not {diagonal:e}")));
     }
-    let filename = params.text("filename")?;
+    // a file that is read writes to no other folder; users can
+    let name = |text: String| Path::new(&text).file_name().map(|name| name.to_string_lossy().into_owned());
+    let filename = params.text("filename")?.and_then(name);
     let iso = params.float("iso")?.unwrap_or(100.0);
     if !(iso > 0.0 && iso.is_finite()) {
         return Err(params.error(format!("\"iso\": must be greater than 0, not {}", shown(iso))));

@@ -21,6 +21,9 @@ pub(super) struct Textures {
     images: RefCell<HashMap<(PathBuf, String), Arc<Texels>>>,
 }
 
+/// Most textures of which a value is computed: their number may double with each that names another one twice.
+const MOST_PARTS: usize = 4096;
+
 /// pbrt's (0, 0) is the lower left corner of an image.
 const UPWARDS: Mapping = Mapping([[1.0, 0.0, 0.0], [0.0, -1.0, 1.0]]);
 
@@ -49,6 +52,10 @@ impl Textures {
             _ => return Err(params.error(format!("a texture of {:?}: only spectrum and float", shortened(value)))),
         };
         let texture = self.read(is_color, kind, params, files, notes)?;
+        if texture.parts(MOST_PARTS).is_none() {
+            let often = "each counted as often as others name it";
+            return Err(params.error(format!("a value of it takes more than {MOST_PARTS} textures, {often}")));
+        }
         let map = if is_color { &mut self.colors } else { &mut self.numbers };
         map.insert(name.to_owned(), texture);
         Ok(())

@@ -105,6 +105,8 @@ impl Bars {
         layer.line(&[[at(bar.low), middle], [high, middle]], Stroke(INK, 1.0, "none"));
         let right = end.max(origin).max(high) + 5.0;
         layer.text([right, base], Anchor::Start, TEXT - 2.0, INK, &row.text);
-        layer
+        let mut whole = Layer::default();
+        whole.pointed(&format!("{}: {}", row.name, row.text), [0.5 * (origin + end), middle], &layer);
+        whole
     }
 }

@@ -90,7 +90,16 @@ impl Layer {
         let text = escape(text);
         let _ = writeln!(
             self.0,
-            "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\" text-anchor=\"{anchor}\" fill=\"{color}\">{text}</text>"
+            "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\" text-anchor=\"{anchor}\" fill=\"{color}\" stroke=\"#fff\" \
+             stroke-width=\"3\" paint-order=\"stroke\">{text}</text>"
+        );
+    }
+    /// Elements around a place with what a reader sees who points near it.
+    pub(super) fn pointed(&mut self, about: &str, [x, y]: DrawingPoint, elements: &Self) {
+        let (about, elements) = (escape(about), &elements.0);
+        let _ = writeln!(
+            self.0,
+            "<g><title>{about}</title><circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"8\" opacity=\"0\"/>\n{elements}</g>"
         );
     }
     /// A group of elements with these attributes.

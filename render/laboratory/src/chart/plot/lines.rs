@@ -4,10 +4,9 @@ use super::axis::{Axis, Bar, Scale};
 use super::drawing::{
     Anchor, Drawing, DrawingPoint, GRID, GUIDE, HEIGHT, INK, Layer, PALE, Part, ROW, Stroke, TEXT, WIDTH, color, dash,
 };
-use super::text::short;
 
 /// A point with error bars.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Dot {
     /// Abscissa.
     pub x: Bar,
@@ -15,6 +14,8 @@ pub struct Dot {
     pub y: Bar,
     /// Whether the interval is narrow enough to support a claim; otherwise the point is hollow.
     pub sure: bool,
+    /// What a reader sees who points at it.
+    pub about: String,
 }
 
 /// One series.
@@ -132,7 +133,7 @@ impl Chart {
         layer
     }
 
-    /// Guide lines of the given slopes, from near the upper left corner.
+    /// Guide lines of the given slopes, from near the upper left corner; captions name the slopes.
     fn guides(&self, [x, y]: &[Axis; 2]) -> Layer {
         let mut layer = Layer::default();
         for slope in &self.guides {
@@ -144,40 +145,39 @@ impl Chart {
                 [x.place(start.0 * factor, ACROSS), y.place(start.1 * factor.powf(*slope), UPWARDS)]
             };
             layer.line(&[at(0.0), at(1.0)], Stroke(GUIDE, 0.8, "3 3"));
-            let [across, height] = at(0.72);
-            let label = format!("slope {}", short(*slope).replace('-', "−"));
-            layer.text([across + 4.0, height - 4.0], Anchor::Start, TEXT - 2.0, GUIDE, &label);
         }
         layer
     }
 }
 
 fn draw_line(line: &Line, [x, y]: &[Axis; 2]) -> Layer {
-    let mut layer = Layer::default();
+    let mut whole = Layer::default();
     let color = color(line.color);
     let drawable = |d: &&Dot| [d.x.value, d.y.value].iter().all(|v| v.is_finite() && *v > 0.0);
     let dots: Vec<&Dot> = line.dots.iter().filter(drawable).collect();
     let (across, upwards) = (|value: f64| x.place(value, ACROSS), |value: f64| y.place(value, UPWARDS));
     let at = |dot: &&Dot| [across(dot.x.value), upwards(dot.y.value)];
     if dots.len() > 1 {
-        layer.line(&dots.iter().map(at).collect::<Vec<_>>(), Stroke(&color, 1.6, dash(line.dash)));
+        whole.line(&dots.iter().map(at).collect::<Vec<_>>(), Stroke(&color, 1.6, dash(line.dash)));
     }
     for dot in &dots {
+        let mut layer = Layer::default();
         let [center, height] = at(dot);
         let thin = Stroke(&color, THIN, "none");
-        if dot.y.low < dot.y.high {
+        if dot.y.low < dot.y.high && dot.y.high.is_finite() {
             let ends = [dot.y.low, dot.y.high].map(|v| [center, upwards(v)]);
             layer.line(&ends, thin);
             ends.iter().for_each(|[a, b]| layer.line(&[[a - 3.0, *b], [a + 3.0, *b]], thin));
         }
-        if dot.x.low < dot.x.high {
+        if dot.x.low < dot.x.high && dot.x.high.is_finite() {
             let ends = [dot.x.low, dot.x.high].map(|v| [across(v), height]);
             layer.line(&ends, thin);
             ends.iter().for_each(|[a, b]| layer.line(&[[*a, b - 3.0], [*a, b + 3.0]], thin));
         }
         layer.polygon(&marker(line.dash, [center, height]), if dot.sure { &color } else { "#fff" }, &color);
+        whole.pointed(&dot.about, [center, height], &layer);
     }
-    layer
+    whole
 }
 
 /// A legend from `top` on, in two columns if the names are short, with its height.

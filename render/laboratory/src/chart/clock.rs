@@ -1,0 +1,44 @@
+//! Which time counts: that on the wall, unless the threads were kept from running.
+
+use super::measure::{Measurement, Rows};
+
+/// Which time counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Clock {
+    /// From the beginning to the end of an image.
+    Wall,
+    /// Of all threads together, because they ran for this part of the time only.
+    Processors(f64),
+}
+
+/// Threads that run for less than this part of the time were kept from it.
+const KEPT: f64 = 0.9;
+
+impl Clock {
+    /// Wall time, unless the threads ran for less than nine tenths of it, as on a machine that does something else.
+    #[must_use]
+    pub fn of(rows: &Rows, threads: usize) -> Self {
+        let all = || rows.values().flatten();
+        let wall: f64 = all().map(|row| row.seconds).sum::<f64>() * threads as f64;
+        match all().map(|row| row.cpu).sum::<Option<f64>>() {
+            Some(cpu) if cpu < KEPT * wall => Self::Processors(cpu / wall),
+            _ => Self::Wall,
+        }
+    }
+
+    /// Seconds of a measurement.
+    pub(super) fn seconds(self, row: &Measurement) -> f64 {
+        if self == Self::Wall { row.seconds } else { row.cpu.unwrap_or(row.seconds) }
+    }
+
+    /// What a reader must know of the times; `None` if they are those of the wall.
+    #[must_use]
+    pub fn remark(self) -> Option<String> {
+        let Self::Processors(share) = self else { return None };
+        Some(format!(
+            "times are those of the processors, all threads together: the threads ran for {:.0} % of the time on the wall, because the machine was busy or \
+             images were too small for all threads",
+            100.0 * share
+        ))
+    }
+}
