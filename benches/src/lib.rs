@@ -1,4 +1,4 @@
-//! Benchmarks of the library and of ray traversal. What they measure is in `etendue-routines`, in the folder `routines`.
+//! Benchmarks of the library and of whole images. What they measure is in `etendue-routines`, in the folder `routines`.
 
 pub mod report;
 

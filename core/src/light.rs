@@ -44,48 +44,9 @@
 //! solid angle of disks. A sun and a constant environment have no area.
 //!
 //! # Costs
-//! Nanoseconds per sample on one core, of the call that a renderer makes: direction, distance, pdf, `emits` and `delta`, with the
-//! preparation for a point of its own in each lane, and prepared once. The last column adds the normal and the surface coordinates,
-//! which cost nothing unless they are used. (`cargo bench -p etendue-benches --bench summary -- --tables`)
-//!
-//! <!-- table: lights -->
-//! AMD EPYC, x86-64-v3, 2026-11-25.
-//!
-//! | light | by | x1 | x8 | prepared, x1 | prepared, x8 | pdf, x8 | invert, x8 | all fields, x8 |
-//! |---|---|---|---|---|---|---|---|---|
-//! | sphere | area | 15.1 | 1.69 | 14.5 | 1.72 | 1.61 | 3.01 | 1.81 |
-//! |  | solid angle | 28.6 | 3.09 | 7.54 | 0.87 | 0.22 | 0.91 | 8.02 |
-//! |  | projected solid angle | 55.4 | 8.45 | 15.4 | 3.01 | 0.16 | 2.10 | 12.8 |
-//! |  | reflection | 606.8 | 84.0 | 245.9 | 35.9 | 14.9 | 14.0 | 84.2 |
-//! | triangle | area | 37.1 | 7.15 | 12.3 | 1.59 | 0.53 | 0.47 | 7.23 |
-//! |  | solid angle | 125.3 | 17.0 | 21.5 | 2.73 | 0.21 | 3.00 | 17.9 |
-//! |  | projected solid angle | 454.1 | 104.9 | 40.3 | 7.44 | 0.25 | 32.4 | 109.2 |
-//! |  | reflection | 552.9 | 113.2 | 160.4 | 27.3 | 0.82 | 15.6 | 112.8 |
-//! | parallelogram | area | 38.5 | 7.18 | 10.2 | 1.33 | 0.63 | 0.36 | 7.40 |
-//! |  | solid angle | 170.2 | 23.1 | 27.6 | 3.66 | 0.26 | 5.31 | 24.1 |
-//! |  | projected solid angle | 1351.6 | 321.5 | 67.3 | 14.1 | 0.37 | 41.2 | 322.0 |
-//! |  | reflection | 998.2 | 321.2 | 183.5 | 34.6 | 0.95 | 18.5 | 318.6 |
-//! | rectangle | area | 37.5 | 7.11 | 10.2 | 1.32 | 0.59 | 0.36 | 7.30 |
-//! |  | solid angle | 170.1 | 29.0 | 34.2 | 4.73 | 0.26 | 6.22 | 28.7 |
-//! |  | projected solid angle | 1220.2 | 307.3 | 68.0 | 12.1 | 0.30 | 44.9 | 307.3 |
-//! |  | reflection | 988.7 | 318.8 | 186.0 | 35.6 | 0.92 | 18.2 | 321.0 |
-//! | polygon, 5 corners | area | 68.4 | 10.1 | 18.0 | 2.46 | 0.66 | 4.00 | 10.7 |
-//! |  | solid angle | 287.0 | 44.8 | 33.7 | 4.06 | 0.83 | 4.58 | 45.5 |
-//! |  | projected solid angle | 1558.5 | 396.2 | 82.8 | 14.8 | 0.35 | 49.6 | 418.3 |
-//! |  | reflection | 1308.1 | 376.6 | 191.2 | 36.6 | 1.07 | 22.3 | 377.9 |
-//! | disk | area | 19.9 | 2.63 | 18.0 | 2.36 | 0.54 | 2.96 | 2.69 |
-//! |  | solid angle | 214.1 | 27.6 | 95.9 | 11.9 | 2.31 | 6.48 | 30.6 |
-//! | bilinear patch | area | 46.2 | 5.28 | 40.2 | 5.28 | 10.3 | 7.40 | 5.33 |
-//! | line | length | 31.6 | 2.56 | 8.04 | 1.02 | 0.36 | 0.53 | 3.57 |
-//! |  | angle | 104.6 | 8.57 | 13.1 | 1.58 | 0.34 | 1.55 | 9.44 |
-//! |  | projected solid angle | 261.0 | 31.1 | 119.1 | 15.0 | 0.51 | 3.94 | 31.2 |
-//! | sun | solid angle | 5.39 | 0.67 | 5.75 | 0.66 | 0.23 | 0.97 | 0.71 |
-//! | point light | delta | 5.42 | 0.62 | 0.50 | 0.11 | 0.05 | 0.05 | 0.70 |
-//! | spot light | delta | 10.7 | 1.26 | 0.51 | 0.11 | 0.04 | 0.04 | 1.38 |
-//! | directional light | delta | 0.54 | 0.11 | 0.50 | 0.11 | 0.05 | 0.04 | 0.19 |
-//! <!-- end of table -->
-//!
-//! Parallelograms, and inverses by projected solid angle and by reflection, are of 2026-11-28.
+//! `benches/RESULTS.md` has nanoseconds per sample on one core, of the call that a renderer makes: direction, distance, pdf, `emits` and
+//! `delta`, with the preparation for a point of its own in each lane, and prepared once. The normal and the surface coordinates cost
+//! nothing unless they are used.
 //!
 //! Without compiler flags a packet of 8 is two registers, and a product and sum two instructions;
 //! `CARGO_ENCODED_RUSTFLAGS= cargo bench -p etendue-benches --bench summary -- light` prints what that costs.

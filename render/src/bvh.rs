@@ -15,8 +15,7 @@
 //! A traversal stays for what it brings end to end. Speed with it relative to without (medians of user time, alternating runs of
 //! `etendue render SCENE --spp 16 --size 256x256 --threads 1 --repeat 5 --sampler independent` on a shared machine): the frustum brings
 //! 1.18 on terrain, 1.07 on quads and 1.09 on mirror-room; the stream, instead of single rays, 1.17, 1.40 and 1.31.
-//! Rays do not take turns while they wait for memory: on the scenes with the largest trees, that brought less than a tenth when it was last
-//! measured. `benches/peers/rays.py` compares rays without order with Embree's.
+//! Rays do not take turns while they wait for memory: on the scenes with the largest trees, that brought less than a tenth.
 
 mod build;
 mod cutouts;

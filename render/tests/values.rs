@@ -3,7 +3,6 @@
 
 mod cameras;
 mod coats;
-mod coats_by_quadrature;
 mod deltas;
 mod emitters;
 mod gltf;

@@ -1,4 +1,3 @@
 //! Warps: the properties of all of them, and defects that the properties must notice.
 
-mod mutants;
 mod properties;

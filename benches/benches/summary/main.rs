@@ -1,12 +1,12 @@
-//! Two tables: the time per sample of every routine in f32, f32x4, f32x8 and f32x16, with the speed-ups of eight lanes over one and of
-//! sixteen over eight; and rays per second on one thread.
+//! The time per sample of every routine in f32, f32x4, f32x8 and f32x16, with the speed-ups of eight lanes over one and of sixteen over
+//! eight.
 //!
-//! `cargo bench -p etendue-benches --bench summary -- cone` selects routines by name, `-- rays` the second table. `-- --instructions` counts
-//! instructions instead (requires Valgrind). `-- --json=FILE` writes all values, `-- --baseline=FILE` compares with those of an earlier run;
-//! paths are from this package's folder.
+//! `cargo bench -p etendue-benches --bench summary -- cone` selects routines by name. `-- --instructions` counts instructions instead
+//! (requires Valgrind). `-- --json=FILE` writes all values, `-- --baseline=FILE` compares with those of an earlier run; paths are from this
+//! package's folder.
 //!
-//! `-- --tables` writes the tables of costs and errors in the README and the documentation. `routines/tests/tables.rs` fails where their
-//! rows and the routines differ.
+//! `-- --results` writes the times to `benches/RESULTS.md`. `routines/tests/results.rs` fails where that has no row of a light, or one of no
+//! routine.
 //!
 //! Figures are medians of repetitions. The widths take turns, so that a change of the processor's clock affects all of them alike.
 
@@ -15,19 +15,17 @@ mod instructions;
 use etendue::{f32x4, f32x8, f32x16};
 use etendue_benches::report::Report;
 use etendue_laboratory::cost::{self, Rounds};
-use etendue_render::bvh::Scratch;
-use etendue_routines::rays::{How, RayKind, Workload};
-use etendue_routines::{SAMPLES, routines, tables};
+use etendue_routines::{SAMPLES, routines};
 use instructions::WIDTHS;
-use serde_json::{Value, json};
-use std::collections::HashMap;
-use std::hint::black_box;
+use serde_json::Value;
+use std::fmt::Write;
+use std::fs;
 use std::process::ExitCode;
-use std::time::Instant;
 
 const REPETITIONS: usize = 31;
 /// The calls of a round take a few hundred microseconds.
 const ROUNDS: Rounds = Rounds { count: REPETITIONS, calls: 64, samples: SAMPLES };
+const RESULTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/RESULTS.md");
 /// Names of the widths.
 const NAMES: [&str; WIDTHS] = ["f32", "f32x4", "f32x8", "f32x16"];
 
@@ -47,10 +45,10 @@ fn run() -> Result<(), String> {
     let (mut filter, mut flags) = ("", Vec::new());
     for argument in &arguments {
         match argument.as_str() {
-            flag @ (instructions::CHILD | "--instructions" | "--tables") => flags.push(flag),
+            flag @ (instructions::CHILD | "--instructions" | "--results") => flags.push(flag),
             word if !word.starts_with('-') => filter = word,
             _ => {
-                let known = "--instructions, --tables, --json=FILE and --baseline=FILE";
+                let known = "--instructions, --results, --json=FILE and --baseline=FILE";
                 return Err(format!("{argument}: not one of {known}"));
             }
         }
@@ -69,50 +67,36 @@ fn run() -> Result<(), String> {
         }
         return report.finish();
     }
-    let mut times = HashMap::new();
+    let mut results = String::new();
     let [one, four, eight] = [routines::<f32>(), routines::<f32x4>(), routines::<f32x8>()];
     let widths = one.into_iter().zip(four).zip(eight).zip(routines::<f32x16>());
     for (((one, four), eight), sixteen) in widths.filter(|(((one, ..), _), _)| one.name.contains(filter)) {
         let name = one.name;
         let mut each = [one.run, four.run, eight.run, sixteen.run];
         let times_of = cost::measure(&mut each, ROUNDS, |_| true);
-        let [one, four, eight, _] = row(&mut report, "ns per sample", &name, std::array::from_fn(|k| &times_of[k][..]));
-        times.insert(name, [one, four, eight]);
+        let times = row(&mut report, "ns per sample", &name, std::array::from_fn(|k| &times_of[k][..]));
+        let cells = times.map(|time| if time < 10.0 { format!("{time:.2}") } else { format!("{time:.1}") });
+        let _ = writeln!(results, "| {name} | {} |", cells.join(" | "));
     }
-    if flags.contains(&"--tables") {
-        tables::write(&tables::Measured::new(times)?)?;
-    } else if "rays".contains(filter) {
-        rays(&mut report);
+    if flags.contains(&"--results") {
+        write(&results)?;
     }
     report.finish()
 }
 
-fn main() -> ExitCode {
-    etendue_benches::exit_code(run())
+/// Replaces what [`RESULTS`] has from its line of the processor on.
+fn write(rows: &str) -> Result<(), String> {
+    let failed = |e: std::io::Error| format!("{RESULTS}: {e}");
+    let text = fs::read_to_string(RESULTS).map_err(failed)?;
+    let (head, _) = text.split_once("On ").ok_or_else(|| format!("{RESULTS}: no line of the processor"))?;
+    let processor = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let processor = processor.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
+    let processor = processor.map_or("an unnamed processor", |(_, name)| name);
+    let flags = if cfg!(target_feature = "fma") { "x86-64-v3" } else { "x86-64 without flags" };
+    let header = format!("| routine | {} |\n|---|---|---|---|---|\n", NAMES.join(" | "));
+    fs::write(RESULTS, format!("{head}On {processor}, {flags}.\n\n{header}{rows}")).map_err(failed)
 }
 
-/// Prints the fraction of hits too. It is the same for all ways, except that obvhs lets some rays through at edges.
-fn rays(report: &mut Report) {
-    println!("\n{:32} {:>15} {:>9} {:>9} {:>9}", "million rays/s, median", "obvhs, per ray", "single", "groups", "hit");
-    for scene in ["quads", "terrain"] {
-        let workload = Workload::new(scene, 512);
-        let mut stack = Scratch::default();
-        for (kind, name) in RayKind::ALL {
-            let (rays, mut hit) = (workload.rays(kind), 0);
-            let mut times = How::ALL.map(|_| Vec::new());
-            for _ in 0..REPETITIONS {
-                for ((how, _), times) in How::ALL.into_iter().zip(&mut times) {
-                    let start = Instant::now();
-                    hit = black_box(workload.trace(kind, how, &mut stack));
-                    times.push(start.elapsed().as_secs_f64() * 1e9 / rays as f64);
-                }
-            }
-            for ((_, how), times) in How::ALL.into_iter().zip(&times) {
-                report.add(&format!("rays/{scene}, {name}/{how}"), "ns per ray", times, json!({ "rays": rays }));
-            }
-            let [obvhs, single, groups] = times.map(|times| 1e3 / cost::median(&times));
-            let hit = hit as f64 / rays as f64;
-            println!("{:32} {obvhs:15.1} {single:9.1} {groups:9.1} {hit:9.3}", format!("{scene}, {name}"));
-        }
-    }
+fn main() -> ExitCode {
+    etendue_benches::exit_code(run())
 }

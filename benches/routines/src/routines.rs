@@ -5,10 +5,7 @@ use etendue::light::parts::ProjectedCap;
 use etendue::light::{EnvironmentMap, ImageEnvironment, Picture, Region};
 use etendue::reflection::Reflection;
 use etendue::sequence::{Independent, JointSobol, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex};
-use etendue::warp::{
-    AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, GgxVisibleNormals, LowDistortionTriangle,
-    Octahedral, PatchSurface, UniformHemisphere, UniformSphere, Warp,
-};
+use etendue::warp::{Bilinear, Cone, GgxVisibleNormals, PatchSurface, Warp};
 use etendue::{LightSample, LightSampler, Real, Rectangle, Sphere, Uint, Vec2, Vec3};
 use etendue_visible::{Occlusion, Solid};
 use std::hint::black_box;
@@ -175,6 +172,17 @@ macro_rules! all_lights {
     )+};
 }
 
+/// The warps without parameters.
+macro_rules! fixed_warps {
+    ({ $list:ident } $($(#[$doc:meta])* $warp:ident $([$r:tt] = $struct:ident)?, $name:ident: $coordinates:literal;)+) => {$(
+        fixed_warps!(@ $list, $warp, $name $(, $r)?);
+    )+};
+    (@ $list:ident, $warp:ident, $name:ident) => {
+        $list.warp(&stringify!($name).replace('_', " ").replace("low ", "low-"), etendue::warp::$warp);
+    };
+    (@ $list:ident, $warp:ident, $name:ident, $r:tt) => {};
+}
+
 /// Tables of 64 × 32 cells, and pictures, which a process builds once.
 fn tables<R: Real + 'static>() -> Vec<Routine> {
     let mut list = List::<R>::new();
@@ -225,16 +233,10 @@ pub fn without_tables<R: Real + 'static>() -> Vec<Routine> {
     let mut list = List::<R>::new();
     let vector = |v: [f64; 3]| Vec3::<R>::new(R::lit(v[0]), R::lit(v[1]), R::lit(v[2]));
 
-    list.warp("concentric disk", ConcentricDisk);
-    list.warp("uniform hemisphere", UniformHemisphere);
-    list.warp("uniform sphere", UniformSphere);
-    list.warp("cosine hemisphere", CosineHemisphere);
+    etendue::warps!(fixed_warps! { { list } });
     list.warp("cone", Cone { one_minus_cos: R::lit(0.1) });
-    list.warp("area triangle", AreaTriangle);
-    list.warp("low-distortion triangle", LowDistortionTriangle);
     list.warp("bilinear", Bilinear { corners: [1.0, 2.0, 0.5, 4.0].map(R::lit) });
     list.warp("GGX visible normals", GgxVisibleNormals::new(R::lit(0.4), R::lit(0.2), vector([0.6, 0.0, 0.8])));
-    list.warp("octahedral", Octahedral);
 
     let a = vector([-1.0, 2.0, -0.5]);
     list.warp("projected cap, cut", ProjectedCap::new(a, R::lit(0.7), vector([0.8, 0.6, 0.0])));

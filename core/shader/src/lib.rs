@@ -59,12 +59,6 @@
 //! Trees of lights, distributions and images of the sky are not here: a host on a GPU has them in its own layout, or asks the core once a
 //! frame. Nor are lights with pictures, whose functions would have up to 8000 lines.
 //!
-//! # Size
-//! We compare the operations of each function of a light with the instructions of the scalar Rust routine, compiled for x86-64-v3, where
-//! whatever the routine calls counts once. In 136 of 145 functions, there are at most 1.3 times as many. The others are functions of parallelograms by projected solid angle (1.64) and of polygons of eight corners (up to
-//! 4.4): functions that Rust calls, and loops over corners, are written out for each triangle.
-//! `cargo test --release -p etendue-shader --test sizes -- --ignored --nocapture` prints them all, with the instructions of C.
-//!
 //! # In another renderer
 //! three-gpu-pathtracer 0.0.26, a path tracer in WebGL 2, samples the area of its rectangular and circular lights. 25 lines by hand replace that
 //! by the functions written here: 1100 lines by solid angle for both shapes, and 9600 with rectangles by projected

@@ -30,20 +30,8 @@
 //! - Degenerate input: occluders without area hide nothing. A light that is seen edge-on, lies below the horizon or has no area has Ω⊥ = 0.
 //! - Greatest error: see [`Occlusion::visible`].
 //!
-//! Nanoseconds per point, one at a time and in packets of 8. An occluder beside the light takes a quarter of the time of one before it.
+//! `benches/RESULTS.md` has the times. An occluder beside the light takes a quarter of the time of one before it.
 //!
-//! <!-- table: visible -->
-//! AMD EPYC, x86-64-v3, 2026-11-25.
-//!
-//! | light | occluders | x1 | x8 |
-//! |---|---|---|---|
-//! | polygon | none | 114.4 | 14.6 |
-//! |  | a polygon before it | 442.9 | 74.7 |
-//! |  | 4 polygons, 1 before it | 805.0 | 139.7 |
-//! |  | a sphere before it | 251.8 | 47.0 |
-//! | sphere | none | 14.7 | 1.94 |
-//! |  | a polygon before it | 349.1 | 49.7 |
-//! <!-- end of table -->
 
 mod cap;
 mod capacity;

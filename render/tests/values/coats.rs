@@ -1,6 +1,5 @@
 //! Coats over diffuse surfaces and over metals.
 
-use super::coats_by_quadrature::COATS;
 use super::meanings::SOME;
 use super::row::{Row, grey, look, times};
 
@@ -55,7 +54,12 @@ fn coats() -> Vec<Row> {
             format!("coateddiffuse of roughness {alpha}, eta {eta}, albedo {albedo}, seen at {view}, lit at {light}");
         Row::new(name, under_sun(&material, view, light), grey(under + shine)).within(0.01).by(SOME)
     };
-    let mut rows: Vec<Row> = COATS.into_iter().map(row).collect();
+    let numbers = |line: &str| -> [f64; 6] {
+        let numbers: Vec<_> = line.split(' ').map(|x| x.parse().unwrap()).collect();
+        numbers.try_into().unwrap()
+    };
+    let lines = include_str!("coats.txt").lines().filter(|line| !line.starts_with('#'));
+    let mut rows: Vec<Row> = lines.map(|line| row(numbers(line))).collect();
     // black below a coat is only the coat; defaults are a smooth coat of 1.5 over 0.5, of no albedo
     for (alpha, view, light) in [(0.2, 20.0, 30.0), (0.5, 60.0, 70.0), (1.0, 5.0, 80.0)] {
         let material = format!(

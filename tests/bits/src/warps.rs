@@ -2,13 +2,8 @@
 
 use crate::figures::{Figures, List, Routine};
 use etendue::Real;
-use etendue_judge::area_lights::LightShape::{Disk, Parallelogram, Rectangle, Sphere, Triangle};
-use etendue_judge::area_lights::Measure::{ProjectedSolidAngle, SolidAngle};
 use etendue_judge::fixture::Fixture;
-use etendue_judge::fixtures::{
-    AreaTriangle, ConcentricDisk, CosineHemisphere, LowDistortionTriangle, Octahedral, UniformHemisphere, UniformSphere,
-};
-use etendue_judge::generators::{self, Case, Random, lights};
+use etendue_judge::generators::{self, Case, Random};
 use etendue_judge::packets::{Coordinates, squares_of};
 
 /// Warps and points of the square, in groups that fit into packets, and points that did not come from a sample.
@@ -77,39 +72,12 @@ impl<S: Fixture> Routine for Warped<S> {
     }
 }
 
+macro_rules! rows {
+    ({ $list:ident } $($name:ident $points:ident $random:literal $(: $warp:path)? $(= $cases:expr)?;)+) => {$(
+        let cases = etendue_judge::warps!(@cases $(: $warp)? $(= $cases)?);
+        $list.add(concat!("warp/", stringify!($name)), &Warped::new(&generators::seen(cases), Points::$points));
+    )+};
+}
 pub(crate) fn add(list: &mut List<'_>) {
-    macro_rules! warps {
-        ($points:ident: $($name:literal: $cases:expr;)+) => {$(
-            list.add(concat!("warp/", $name), &Warped::new(&generators::seen($cases.to_vec()), Points::$points));
-        )+};
-    }
-    warps! { Plane:
-        "concentric_disk": [("whole", ConcentricDisk)];
-        "area_triangle": [("whole", AreaTriangle)];
-        "low_distortion_triangle": [("whole", LowDistortionTriangle)];
-        "bilinear": generators::bilinears();
-    }
-    warps! { Space:
-        "ggx_visible_normals": generators::microsurfaces();
-        "cosine_hemisphere": [("whole", CosineHemisphere)];
-        "uniform_hemisphere": [("whole", UniformHemisphere)];
-        "uniform_sphere": [("whole", UniformSphere)];
-        "octahedral": [("whole", Octahedral)];
-        "cone": generators::cones();
-        "patch_surface": generators::patch_surfaces();
-    }
-    warps! { Seen:
-        "spherical_cap": lights(Sphere, SolidAngle, 3, 11);
-        "spherical_triangle": lights(Triangle, SolidAngle, 4, 12);
-        "spherical_parallelogram": lights(Parallelogram, SolidAngle, 4, 13);
-        "spherical_rectangle": lights(Rectangle, SolidAngle, 4, 14);
-        "spherical_polygon": generators::hexagons(3, 15);
-        "spherical_disk": lights(Disk, SolidAngle, 3, 31);
-        "spherical_segment": generators::segments(3, 21)[0].clone();
-        "projected_cap": lights(Sphere, ProjectedSolidAngle, 3, 14);
-        "projected_triangle": lights(Triangle, ProjectedSolidAngle, 3, 16);
-        "projected_parallelogram": lights(Parallelogram, ProjectedSolidAngle, 1, 17);
-        "projected_polygon": generators::projected_pentagons(2, 18);
-        "projected_segment": generators::segments(1, 22)[1].clone();
-    }
+    etendue_judge::warps!(rows! { { list } });
 }

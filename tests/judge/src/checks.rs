@@ -1,4 +1,4 @@
-//! Checks of functions that are not warps. Each takes the function as an argument, so that mutants can be put through it too.
+//! Checks of functions that are not warps. Each takes the function as an argument.
 
 use crate::random::Random;
 use etendue::estimate::Heuristic;

@@ -9,10 +9,7 @@ mod surface;
 
 pub use corners::Corners;
 pub use normals::GgxVisibleNormals;
-pub use round::{
-    AreaTriangle, ConcentricDisk, Cone, CosineHemisphere, LowDistortionTriangle, Octahedral, UniformHemisphere,
-    UniformSphere,
-};
+pub use round::*;
 pub use segment::Segment;
 pub use square::Bilinear;
 pub use surface::PatchSurface;

@@ -11,7 +11,6 @@
 //! - [`suite`]: all properties over all regimes.
 //! - [`fuzz_bodies`]: the bodies of the fuzz targets.
 //! - [`checks`]: properties of functions that are not samplers; [`light_tree`]: of trees of lights; [`occlusion`]: of lights behind occluders.
-//! - [`mutants`]: well-known defects of renderers, which the properties must detect.
 //! - [`stats`] has p-values.
 
 #![allow(clippy::neg_cmp_op_on_partial_ord, reason = "what is NaN is wrong")]
@@ -34,8 +33,6 @@ pub mod generators;
 pub mod light_tree;
 pub mod lights;
 #[cfg(feature = "checks")]
-pub mod mutants;
-#[cfg(feature = "checks")]
 pub mod numbers;
 #[cfg(feature = "occlusion")]
 pub mod occlusion;
@@ -53,3 +50,4 @@ pub mod suite;
 pub mod textbook;
 pub mod tolerances;
 pub mod truths;
+mod warps;

@@ -1,4 +1,4 @@
-//! All properties over all regimes: the tests of the warps run this, and so do the mutants.
+//! All properties over all regimes: the tests of the warps run this.
 
 use crate::fixture::{Fixture, Subject};
 use crate::generators::{self, Case, Random};

@@ -81,7 +81,7 @@ fn piecewise_constant_1d_counts() {
 
 #[test]
 fn piecewise_constant_2d_counts() {
-    for [w, h] in [[1, 1], [1, 5], [6, 1], [16, 8], [13, 11], [1000, 500]] {
+    for [w, h] in [[1, 1], [1, 5], [6, 1], [16, 8], [13, 11], [1000, 500]].into_iter().take(cases(5, 6)) {
         for (name, weights) in regimes(w * h) {
             if weights.iter().all(|w| *w == 0.0) {
                 continue;

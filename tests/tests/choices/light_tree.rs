@@ -114,7 +114,7 @@ fn choices_have_their_pmf_in_every_lane() {
         for count in [0, 1, 9, 65, 700] {
             let lamps = regime.lamps(count.max(1), &mut random);
             let grove = Grove::of(&lamps[..count]);
-            for _ in 0..100 {
+            for _ in 0..cases(25, 100) {
                 let places = core::array::from_fn(|_| place(regime, &lamps, &mut random).0);
                 let words = core::array::from_fn(|_| words_of(&mut random));
                 grove.choices(&places, &words, &core::array::from_fn(|_| square(&mut random)[0]));
@@ -246,7 +246,7 @@ fn same_shares(one: &Grove, other: &Grove, place: PointAndNormal) {
 fn threads_and_refitting_give_the_same_tree() {
     for (seed, regime) in (0..).zip(Regime::ALL) {
         let mut random = Random::new(700 + seed);
-        for count in [1, 8, 9, 100, 20_000] {
+        for count in [1, 8, 9, 100, cases(9_000, 20_000)] {
             let lamps = regime.lamps(count, &mut random);
             let grove = Grove::of(&lamps);
             let threads = Grove::with(grove.bounds.clone(), &Threads);
@@ -271,7 +271,7 @@ fn lights_that_move() {
             let shuffled = Regime::ALL[random.word() as usize % Regime::ALL.len()];
             let lamps = shuffled.lamps(count, &mut random);
             let moved = grove.refitted(lamps.iter().map(Lamp::bound).collect());
-            for _ in 0..20 {
+            for _ in 0..cases(5, 20) {
                 let place = place(shuffled, &lamps, &mut random);
                 let _ = moved.exact(place.0);
                 law(&moved, &lamps, place, &mut random);

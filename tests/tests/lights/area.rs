@@ -10,17 +10,17 @@ use etendue_judge::packets::Coordinates;
 use etendue_oracle::{V3, along, basis, cross, dot, gauss_legendre, length, narrow, sub, unit};
 
 /// Mean of f over an n × n grid of `u`.
-pub(crate) fn mean(n: usize, f: impl Fn(Vec2<f64>) -> f64) -> f64 {
+fn mean(n: usize, f: impl Fn(Vec2<f64>) -> f64) -> f64 {
     let at = |i: usize| (i as f64 + 0.5) / n as f64;
     (0..n * n).map(|i| f(Vec2::new(at(i % n), at(i / n)))).sum::<f64>() / (n * n) as f64
 }
 /// Irradiance of one sample, where the radiance is 1 on the emitting side.
-pub(crate) fn irradiance(s: &LightSample<f64>, n: V3) -> f64 {
+fn irradiance(s: &LightSample<f64>, n: V3) -> f64 {
     let cos = dot(s.direction.at(0), n).max(0.0);
     if s.pdf > 0.0 && s.emits { cos / s.pdf } else { 0.0 }
 }
 /// Mean irradiance of samples from an n × n grid of `u`.
-pub(crate) fn flux(n: usize, sampler: &dyn LightSampler<f64>, normal: V3) -> f64 {
+fn flux(n: usize, sampler: &dyn LightSampler<f64>, normal: V3) -> f64 {
     mean(n, |u| irradiance(&sampler.sample(u), normal))
 }
 fn origin() -> Vec3<f64> {
@@ -77,40 +77,6 @@ fn areas_are_those_of_the_shapes() {
     let nodes = gauss_legendre::<20>();
     let by_s = |s: f64| nodes.iter().map(|(t, weight)| weight * (1.0 + s * s + t * t).sqrt()).sum::<f64>();
     check("saddle", saddle.area(), &saddle, nodes.iter().map(|&(s, weight)| weight * by_s(s)).sum());
-}
-
-/// A line through two points of a twisted patch meets it nowhere else. Seen from beyond one of them, that one is hit, with its surface
-/// coordinates; seen from between them, the one ahead; and seen from beyond both with the back turned, neither.
-#[test]
-fn a_patch_that_is_seen_twice_is_hit_where_it_is_near() {
-    let mut random = Random::new(77);
-    let mut seen = 0;
-    while seen < 2000 {
-        let [p, u, v, w] = core::array::from_fn(|_| Vec3::<f64>::lit(random.direction().map(f64::from)));
-        let twist = w - u - v;
-        let point = |[s, t]: [f64; 2]| p + u * s + v * t + twist * (s * t);
-        let [a, b] = core::array::from_fn(|_| [random.unit_f64(), random.unit_f64()]);
-        let (from, to) = (point(a), point(b));
-        let apart = (to - from).length();
-        let ahead = (to - from) * (1.0 / apart);
-        // the line crosses the patch at both points, and runs along no edge
-        let cos = |[s, t]: [f64; 2]| ahead.dot((u + twist * t).cross(v + twist * s).normalize()).abs();
-        if apart < 0.3 || cos(a).min(cos(b)) < 0.1 || (a[0] - b[0]).abs().min((a[1] - b[1]).abs()) < 0.1 {
-            continue;
-        }
-        seen += 1;
-        let hit = |place: Vec3<f64>, ray: Vec3<f64>| BilinearPatch::new(p, u, v, w).by_area(place).hit(ray);
-        let near = |place: Vec3<f64>, ray: Vec3<f64>, distance: f64, [s, t]: [f64; 2]| {
-            let hit = hit(place, ray);
-            let off = (hit.distance - distance).abs().max((hit.uv.x - s).abs()).max((hit.uv.y - t).abs());
-            assert!(hit.pdf > 0.0 && off < 1e-4, "{a:?} {b:?}: {hit:?}, not {distance} at {s}, {t}");
-        };
-        near(from - ahead * 0.5, ahead, 0.5, a);
-        near(to + ahead * 0.5, -ahead, 0.5, b);
-        near(from + ahead * (0.5 * apart), ahead, 0.5 * apart, b);
-        near(from + ahead * (0.5 * apart), -ahead, 0.5 * apart, a);
-        assert_eq!(hit(from - ahead * 0.5, -ahead).pdf, 0.0);
-    }
 }
 
 /// Irradiance of a line of unit radiance and width: by Gauss and Legendre along it, clipped to the horizon.

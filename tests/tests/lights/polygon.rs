@@ -1,68 +1,22 @@
-//! Polygons as lights: irradiance against Lambert's formula, coincident corners, lanes, arbitrary bits.
+//! Polygons as lights: coincident corners, small ones, normals.
 
-use super::area::{flux, irradiance};
 use etendue::{LightSampler, Parallelogram, Polygon, Vec2, Vec3};
 use etendue_judge::generators::Random;
 use etendue_judge::packets::Coordinates;
-use etendue_oracle::tier::is_long;
-use etendue_oracle::{
-    V3, above_horizon, along, basis, cross, dd, dot, exact_sum, lambert, projected_polygon, triangle_solid_angle, unit,
-};
+use etendue_oracle::{V3, above_horizon, along, basis, cross, dd, dot, exact_sum, lambert, triangle_solid_angle, unit};
 
-/// N corners on an ellipse at a height above the origin, corners 0 to `skip` coincident, and the unit vector from the origin to their
-/// plane.
-fn polygon<const N: usize>(size: f64, height: f64, skip: usize, random: &mut Random) -> ([V3; N], V3) {
+/// Five corners on an ellipse above the origin, and the unit vector from the origin to their plane.
+fn pentagon(random: &mut Random) -> ([V3; 5], V3) {
     let (s, t) = basis(random.direction());
     let n = unit(cross(s, t));
     let start = random.unit_f64();
     let corners = core::array::from_fn(|i| {
-        let turn = (i.max(skip) as f64 + start) / N as f64 * core::f64::consts::TAU;
+        let turn = (i as f64 + start) / 5.0 * core::f64::consts::TAU;
         // counterclockwise as seen from the origin, which is at −n
         let (y, x) = (-turn.sin(), turn.cos());
-        along(along(n.map(|n| n * height), s, size * (x + 0.3)), t, size * 0.6 * y)
+        along(along(n.map(|n| n * 1.5), s, x + 0.3), t, 0.6 * y)
     });
     (corners, n)
-}
-
-fn agrees<const N: usize>(random: &mut Random) {
-    for (size, height, skip) in [(1.0, 1.0, 0), (1e-3, 1.0, 0), (3.0, 1.0, 1), (1.0, 1.0, 1), (1.0, 0.3, 0)] {
-        let (corners, n) = polygon::<N>(size, height, if N > 3 { skip } else { 0 }, random);
-        let light = Polygon { corners: corners.map(Vec3::<f64>::from) };
-        // the receiver faces the polygon, or its horizon cuts it
-        for receiver in [n, unit(along(n, basis(n).0, 2.0))] {
-            let truth = projected_polygon(&corners, receiver);
-            let o = Vec3::default();
-            let by_solid_angle = flux(256, &light.by_solid_angle(o), receiver);
-            let by_area = flux(400, &light.by_area(o), receiver);
-            // a column of the grid may straddle two triangles: up to 1/800 for each of the N − 3 boundaries
-            let (one, other) = ((by_solid_angle / truth - 1.0).abs(), (by_area / truth - 1.0).abs());
-            assert!(one < 3e-4 && other < 3e-3, "{N} {size} {height}: {by_solid_angle}, {by_area}, expected {truth}");
-            // every sample gives the same estimate
-            for u in [[0.1, 0.3], [0.5, 0.9], [0.97, 0.02]] {
-                let s = light.by_projected_solid_angle(o, receiver.into()).sample(u.into());
-                assert!(
-                    (irradiance(&s, receiver) / truth - 1.0).abs() < 1e-9,
-                    "{N} {size} {height}: {s:?}, expected {truth}"
-                );
-            }
-            let mut corners = light.corners;
-            corners.reverse();
-            let behind = Polygon { corners };
-            assert_eq!(flux(20, &behind.by_area(o), receiver), 0.0);
-            assert_eq!(flux(20, &behind.by_solid_angle(o), receiver), 0.0);
-        }
-    }
-}
-
-#[test]
-fn irradiance_matches_lamberts_formula() {
-    let mut random = Random::new(1);
-    agrees::<5>(&mut random);
-    if is_long() {
-        agrees::<3>(&mut random);
-        agrees::<4>(&mut random);
-        agrees::<8>(&mut random);
-    }
 }
 
 // whichever corner stands for several, and whether the polygon faces the surface, contains the zenith or crosses the horizon
@@ -70,7 +24,7 @@ fn irradiance_matches_lamberts_formula() {
 fn samples_of_polygons_with_repeated_corners_hit_them() {
     let mut random = Random::new(9);
     for _ in 0..300 {
-        let (corners, n) = polygon::<5>(1.0, 1.5, 0, &mut random);
+        let (corners, n) = pentagon(&mut random);
         for repeated in 0..5 {
             let corners: [_; 8] = core::array::from_fn(|i| corners[i.min(repeated) + i.saturating_sub(repeated + 3)]);
             let light = Polygon { corners: corners.map(|c| Vec3::<f32>::from(c.map(|x| x as f32))) };

@@ -8,8 +8,7 @@ use etendue::{
 use etendue_judge::area_lights::{AreaLight, LightShape, Measure};
 use etendue_judge::fixture::Fixture;
 use etendue_judge::generators::Random;
-use etendue_judge::packets::{Coordinates, squares_of};
-use etendue_judge::properties;
+use etendue_judge::packets::Coordinates;
 use etendue_oracle::{V3, cross, dot, length, sub, unit, wide};
 
 /// Clearly out of its plane, or not flat, so that the shape is known to more than rounding.
@@ -20,38 +19,6 @@ fn clear(light: &AreaLight) -> bool {
     let slim = length(cross(b, c)) < 0.05 * length(b) * length(c);
     let low = dot(v, normal).abs() < 1e-2 * length(v) * length(normal);
     !(flat && (low || slim && !light.shape.has_normal()))
-}
-
-#[test]
-fn pdf_of_a_sample_is_the_pdf_of_its_direction() {
-    let mut checked = [0_u32; AreaLight::KINDS.len()];
-    for (kind, checked) in checked.iter_mut().enumerate() {
-        let mut random = Random::new(kind as u64);
-        for round in 0..4000 {
-            let light = AreaLight::any(kind, round, &mut random);
-            let u = [random.unit(), random.unit()];
-            if clear(&light) {
-                let sampler = AreaLight::prepare::<f32>(&[light]);
-                properties::one_pdf(&light, &*sampler, u);
-                properties::measure(&light, &*sampler, u);
-                *checked += u32::from(sampler.sample(squares_of(&[u])).pdf > 0.0);
-            }
-        }
-    }
-    println!("samples with a pdf by kind: {checked:?}");
-    assert!(checked.iter().all(|&n| n > 500), "{checked:?}");
-}
-
-#[test]
-fn every_lane_agrees_in_all_that_a_sampler_returns() {
-    for kind in 0..AreaLight::KINDS.len() {
-        let mut random = Random::new(100 + kind as u64);
-        for round in 0..200 {
-            let lights = core::array::from_fn(|i| AreaLight::any(kind, round + i as u32, &mut random));
-            let us = core::array::from_fn(|_| [random.unit(), random.unit()]);
-            properties::any_bits_of(&lights, &us);
-        }
-    }
 }
 
 /// The inverse returns the number, to what the direction's rounding allows; of solid angles at the scale of rooms.

@@ -3,10 +3,7 @@
 use etendue::Sphere;
 use etendue_judge::area_lights::{AreaLight, LightShape, Measure};
 use etendue_judge::fixture::Fixture;
-use etendue_judge::fixtures::{
-    AreaTriangle, Bilinear, ConcentricDisk, Cone, CosineHemisphere, GgxVisibleNormals, LowDistortionTriangle,
-    Octahedral, PatchSurface, Segment, UniformHemisphere, UniformSphere,
-};
+use etendue_judge::fixtures::{Bilinear, Cone, GgxVisibleNormals, PatchSurface, Segment};
 use etendue_judge::generators::{self, Case, Random, lights};
 use etendue_judge::packets::squares_of;
 use etendue_judge::properties;
@@ -73,41 +70,19 @@ fn all<S: Fixture>(warp: &str, cases: Vec<Case<S>>, random: usize) {
 use LightShape::{Disk, Parallelogram, Rectangle, Triangle};
 use Measure::{ProjectedSolidAngle, SolidAngle};
 
-/// A test for each warp: its name, its cases, and how many random points of the square.
-macro_rules! warps {
-    ($($name:ident: $cases:expr, $random:literal;)+) => {
+/// A test for each warp.
+macro_rules! tests {
+    ($($name:ident $points:ident $random:literal $(: $warp:path)? $(= $cases:expr)?;)+) => {
         $(#[test]
         fn $name() {
-            all(stringify!($name), $cases, $random);
+            all(stringify!($name), etendue_judge::warps!(@cases $(: $warp)? $(= $cases)?), $random);
         })+
     };
 }
-warps! {
-    concentric_disk: vec![("whole", ConcentricDisk)], 4000;
-    area_triangle: vec![("whole", AreaTriangle)], 4000;
-    low_distortion_triangle: vec![("whole", LowDistortionTriangle)], 4000;
-    bilinear: generators::bilinears(), 1000;
-    ggx_visible_normals: generators::microsurfaces(), 500;
-    cosine_hemisphere: vec![("whole", CosineHemisphere)], 4000;
-    uniform_hemisphere: vec![("whole", UniformHemisphere)], 4000;
-    uniform_sphere: vec![("whole", UniformSphere)], 4000;
-    octahedral: vec![("whole", Octahedral)], 4000;
-    cone: generators::cones(), 1000;
-    spherical_cap: lights(LightShape::Sphere, SolidAngle, 3, 11), 200;
-    spherical_polygon: generators::hexagons(3, 15), 60;
-    spherical_polygon_of_every_size: generators::hexagons_of_every_size(3, 16), 60;
-    spherical_disk: lights(Disk, SolidAngle, 3, 31), 100;
-    spherical_segment: generators::segments(3, 21)[0].clone(), 200;
-    projected_segment: generators::segments(1, 22)[1].clone(), 60;
-    patch_surface: generators::patch_surfaces(), 200;
-    projected_cap: lights(LightShape::Sphere, ProjectedSolidAngle, 3, 14), 100;
-    projected_triangle: lights(Triangle, ProjectedSolidAngle, 3, 16), 60;
-    projected_parallelogram: lights(Parallelogram, ProjectedSolidAngle, 1, 17), 40;
-    projected_polygon: generators::projected_pentagons(2, 18), 40;
-    projected_polygon_of_every_size: generators::projected_pentagons_of_every_size(2, 19), 40;
-    spherical_triangle: lights(Triangle, SolidAngle, 4, 12), 60;
-    spherical_parallelogram: lights(Parallelogram, SolidAngle, 4, 13), 200;
-    spherical_rectangle: lights(Rectangle, SolidAngle, 8, 14), 200;
+etendue_judge::warps!(tests! {});
+tests! {
+    spherical_polygon_of_every_size Seen 60 = generators::hexagons_of_every_size(3, 16);
+    projected_polygon_of_every_size Seen 40 = generators::projected_pentagons_of_every_size(2, 19);
 }
 
 /// Every shape by its techniques other than area.

@@ -46,6 +46,17 @@ macro_rules! visit_techniques {
     };
 }
 
+/// Passes the warps without parameters to a visitor.
+macro_rules! visit_fixed_warps {
+    ({ $visitor:ident } $($(#[$doc:meta])* $warp:ident $([$r:tt] = $struct:ident)?, $name:ident: $coordinates:literal;)+) => {$(
+        visit_fixed_warps!(@ $visitor, $warp, $name $(, $r)?);
+    )+};
+    (@ $visitor:ident, $warp:ident, $name:ident) => {
+        $visitor.warp(stringify!($name), $warp);
+    };
+    (@ $visitor:ident, $warp:ident, $name:ident, $r:tt) => {};
+}
+
 /// A glossy floor, seen from the side.
 fn glossy() -> Reflection<f32> {
     Reflection::new(0.2, v(0.0, 1.0, 0.0), v(-0.6, 0.8, 0.0))
@@ -84,13 +95,7 @@ pub(crate) fn visit(visitor: &mut impl Visitor) {
     etendue::techniques!(visit_techniques! { { visitor } });
     visit_images(visitor);
     let center = v(0.0, 1.0, 0.0);
-    visitor.warp("concentric disk", ConcentricDisk);
-    visitor.warp("uniform hemisphere", UniformHemisphere);
-    visitor.warp("uniform sphere", UniformSphere);
-    visitor.warp("cosine hemisphere", CosineHemisphere);
-    visitor.warp("octahedral", Octahedral);
-    visitor.warp("area triangle", AreaTriangle);
-    visitor.warp("low-distortion triangle", LowDistortionTriangle);
+    etendue::warps!(visit_fixed_warps! { { visitor } });
     visitor.warp("cone", Cone { one_minus_cos: 0.3 });
     visitor.warp("bilinear", Bilinear { corners: [1.0, 2.0, 0.5, 3.0] });
     visitor.warp("GGX visible normals", GgxVisibleNormals::new(0.3, 0.5, v(0.6, 0.0, 0.8)));

@@ -3,10 +3,7 @@
 use super::{Input, scalable};
 use crate::area_lights::{AreaLight, LightShape, Measure};
 use crate::fixture::{Fixture, Subject};
-use crate::fixtures::{
-    AreaTriangle, Bilinear, ConcentricDisk, Cone, Corners, CosineHemisphere, GgxVisibleNormals, LowDistortionTriangle,
-    Octahedral, Segment, UniformHemisphere, UniformSphere,
-};
+use crate::fixtures::{Bilinear, Cone, Corners, GgxVisibleNormals, Segment};
 use crate::generators::{self, Case, Random};
 use crate::packets::squares_of;
 use crate::properties;
@@ -31,18 +28,17 @@ fn check<S: Fixture>(s: &S, u: [f32; 2], lengths: &[f32], is_fair: bool, input: 
     }
 }
 
+macro_rules! fixed {
+    ($($name:ident $points:ident $random:literal $(: $warp:path)? $(= $cases:expr)?;)+) => {
+        /// Checks of the warps without parameters.
+        const FIXED: &[fn([f32; 2], &mut Input<'_>)] = &[$($(|u, input| check(&$warp, u, &[], true, input),)?)+];
+    };
+}
+crate::warps!(fixed! {});
 /// Warps without parameters.
 pub(super) fn fixed_warps(input: &mut Input<'_>) {
-    let (kind, u) = (input.below(7), input.square());
-    match kind {
-        0 => check(&ConcentricDisk, u, &[], true, input),
-        1 => check(&AreaTriangle, u, &[], true, input),
-        2 => check(&LowDistortionTriangle, u, &[], true, input),
-        3 => check(&CosineHemisphere, u, &[], true, input),
-        4 => check(&UniformHemisphere, u, &[], true, input),
-        5 => check(&UniformSphere, u, &[], true, input),
-        _ => check(&Octahedral, u, &[], true, input),
-    }
+    let (kind, u) = (input.below(FIXED.len() as u8), input.square());
+    FIXED[usize::from(kind)](u, input);
 }
 
 /// The bilinear density.
