@@ -7,7 +7,7 @@ use crate::light::{
 };
 use crate::real::{Mask, Real};
 use crate::select::LightBound;
-use crate::vector::Vec3;
+use crate::vector::{Frame, Vec3};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::f64::consts::PI;
@@ -110,16 +110,37 @@ fn upright<R: Real>(disk: Disk<R>) -> Disk<R> {
     Disk { normal: unit(disk.normal), ..disk }
 }
 
+fn rounding<R: Real>() -> R {
+    R::lit(if R::DOUBLE { f64::EPSILON } else { f64::from(f32::EPSILON) })
+}
+
 /// The image of a sphere if it is one, to within the rounding of the axes: cheaper, and uniform by solid angle.
 fn round<R: Real<Scalar = R>>(light: &Affine<Sphere<R>, R>) -> Option<Sphere<R>> {
     let lengths = light.axes.map(|axis| axis.unit_and_length().1);
     let [x, y, z] = light.axes.map(unit);
-    let slack = R::lit(if R::DOUBLE { 4.0 * f64::EPSILON } else { 4.0 * f64::from(f32::EPSILON) });
+    let slack = R::lit(4.0) * rounding();
     let is_small = |x: R| x.abs().le(slack).any();
     let is_equal = |other: R| is_small((other - lengths[0]) / lengths[0]);
     let is_round =
         [x.dot(y), y.dot(z), z.dot(x)].into_iter().all(is_small) && is_equal(lengths[1]) && is_equal(lengths[2]);
     is_round.then(|| Sphere::new(light.image(light.shape.center), light.shape.radius * lengths[0]))
+}
+
+/// The image of a disk if it is one, to within the rounding of the axes.
+fn circle<R: Real<Scalar = R>>(light: &Affine<Disk<R>, R>) -> Option<Disk<R>> {
+    let [x, y, z] = light.axes;
+    let Frame { s, t, n } = Frame::new(unit(light.shape.normal));
+    let image = |v: Vec3<R>| (x * v.x + y * v.y + z * v.z).unit_and_length();
+    let ([(s, length), (t, other), (n, _)], slack) = ([s, t, n].map(image), R::lit(8.0) * rounding());
+    let (normal, zero) = (s.cross(t), R::lit(0.0));
+    let is_small = |x: R| x.abs().le(slack);
+    let is_round = is_small(s.dot(t)) & is_small((other - length) / length) & normal.dot(n).abs().gt(zero);
+    let disk = || Disk {
+        center: light.image(light.shape.center),
+        normal: unit(normal) * R::lit(1.0).copysign(normal.dot(n)),
+        radius: light.shape.radius * length,
+    };
+    is_round.any().then(disk)
 }
 
 macro_rules! shapes {
@@ -141,7 +162,7 @@ shapes! {
     Patch = BilinearPatch<R> => Shape::Patch;
     Line = Line<R> => Shape::Line;
     Ellipsoid = Affine<Sphere<R>, R> => |light| round(&light).map_or_else(|| Shape::Ellipsoid(Box::new(light)), Shape::Sphere);
-    Ellipse = Affine<Disk<R>, R> => |light| Shape::Ellipse(Box::new(Affine { shape: upright(light.shape), ..light }));
+    Ellipse = Affine<Disk<R>, R> => |light| circle(&light).map_or_else(|| Shape::Ellipse(Box::new(Affine { shape: upright(light.shape), ..light })), Shape::Disk);
     Point = PointLight<R> => Shape::Point;
     Spot = SpotLight<R> => |light| Shape::Spot(SpotLight { axis: unit(light.axis), ..light });
     Directional = DirectionalLight<R> => |light| Shape::Directional(DirectionalLight::new(unit(light.direction)));

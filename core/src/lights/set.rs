@@ -125,6 +125,8 @@ struct Last<R: Real<Scalar = R>> {
     index: u32,
     /// Whether the receiver is on it.
     is_on: bool,
+    /// The probability of its choice; negative while that is not known.
+    pmf: R,
     prepared: Prepared<R>,
 }
 
@@ -231,7 +233,12 @@ fn at<R: Real<Scalar = R>>(lights: &Lights<R>, receiver: Receiver<R>) -> LightsA
     // each in its place, so that kilobytes are not moved
     macro_rules! none {
         () => {
-            RefCell::new(Last { index: u32::MAX, is_on: false, prepared: Prepared::Sky(EnvironmentBySolidAngle) })
+            RefCell::new(Last {
+                index: u32::MAX,
+                is_on: false,
+                pmf: R::lit(-1.0),
+                prepared: Prepared::Sky(EnvironmentBySolidAngle),
+            })
         };
     }
     if lights.choice.has_lamps_alone() {
@@ -252,13 +259,18 @@ impl<R: Real<Scalar = R>> LightsAt<'_, R> {
         };
         (choice.index.lane(0), choice.pmf)
     }
+    /// The pmf of the light that is prepared, which has this index.
     #[inline(always)]
     fn pmf(&self, index: u32) -> R {
-        match &self.choice {
-            Some(choice) => choice.pmf(index),
-            None if self.lights.parts.len() == 1 => R::lit(1.0),
-            None => self.lights.choice.shared(self.lamps().pmf_of(index)),
+        let mut last = self.last.borrow_mut();
+        if last.pmf.lt(R::lit(0.0)).any() {
+            last.pmf = match &self.choice {
+                Some(choice) => choice.pmf(index),
+                None if self.lights.parts.len() == 1 => R::lit(1.0),
+                None => self.lights.choice.shared(self.lamps().pmf_of(index)),
+            };
         }
+        last.pmf
     }
     #[inline(always)]
     fn lamps(&self) -> TreeAt<'_, R> {
@@ -269,9 +281,10 @@ impl<R: Real<Scalar = R>> LightsAt<'_, R> {
     fn with<T>(&self, index: u32, part: &Part<R>, f: impl FnOnce(&Prepared<R>) -> T) -> (T, bool) {
         let Receiver { point, side, on } = self.receiver;
         let mut last = self.last.borrow_mut();
-        let Last { index: of, is_on, prepared } = &mut *last;
+        let Last { index: of, is_on, pmf, prepared } = &mut *last;
         if *of != index {
             *of = index;
+            *pmf = R::lit(-1.0);
             *is_on = on == Some(part.which) || part.holds(point);
             prepared.prepare(&part.shape, point, side);
         }
@@ -289,6 +302,7 @@ fn sample<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, [u, v, w]: [R; 3]) -> Light
     // what cannot contribute is not prepared
     let Some(part) = at.lights.parts.get(index as usize).filter(|_| pmf.gt(zero).any()) else { return nothing() };
     let (mut sample, is_on): (Drawn<R>, bool) = at.with(index, part, |light| light.sample(Vec2::new(v, w)));
+    at.last.borrow_mut().pmf = pmf;
     let normal = part.normal(at.receiver.point, &sample);
     // of numbers that overflow there is none
     sample.normal = normal.keep(normal.is_within(R::lit(2.0)));
@@ -309,6 +323,7 @@ fn sample<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, [u, v, w]: [R; 3]) -> Light
         bound,
         normal,
         pdf: pdf.keep(mask(some)),
+        pmf,
         factor: R::blend(mask(some && emits), factor, zero),
         delta: sample.delta,
     }
@@ -318,7 +333,8 @@ fn sample<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, [u, v, w]: [R; 3]) -> Light
 fn nothing<R: Real>() -> LightsSample<R> {
     let (zero, which) = (R::lit(0.0), Which::default());
     let [direction, point, normal] = [Vec3::ZERO; 3];
-    LightsSample { which, direction, distance: zero, point, bound: zero, normal, pdf: zero, factor: zero, delta: false }
+    let [distance, bound, pdf, pmf, factor] = [zero; 5];
+    LightsSample { which, direction, distance, point, bound, normal, pdf, pmf, factor, delta: false }
 }
 
 /// A part of a light and its index, if there is one.
@@ -350,7 +366,9 @@ fn pdf<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, which: Which, w: Vec3<R>) -> R
         return R::lit(0.0);
     }
     let (pdf, is_on) = at.with(index, part, |light| light.pdf(w));
-    (at.pmf(index) * pdf).keep(R::Mask::splat(!is_on))
+    // most directions of other techniques miss the light
+    let zero = R::lit(0.0);
+    if is_on || !pdf.gt(zero).any() { zero } else { at.pmf(index) * pdf }
 }
 
 #[cfg(test)]
@@ -361,6 +379,6 @@ mod tests {
     #[test]
     fn sizes_are_as_stated() {
         let sizes = [size_of::<Part<f32>>(), size_of::<Part<f64>>(), size_of::<LightsAt<'_, f32>>()];
-        assert_eq!(sizes, [104, 184, 2144]);
+        assert_eq!(sizes, [104, 184, 2152]);
     }
 }

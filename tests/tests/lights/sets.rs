@@ -217,12 +217,14 @@ fn bits<R: Real>(x: R) -> u64 {
     x.lane_f64(0).to_bits()
 }
 
-/// The pdf of the direction of a sample is its pdf, bit for bit; but of patches and lines.
+/// The pdf of the direction of a sample is its pdf, bit for bit; but of patches and lines. It is the product of the probability of the choice
+/// and the pdf of the light alone.
 #[test]
 fn pdfs_of_directions_are_those_of_samples() {
     fn check<R: Number + Real<Uint = u32>>() {
         let all = every::<R>();
         let set = Lights::new(all.iter().cloned()).unwrap();
+        let alone: Vec<_> = all.iter().map(|light| Lights::new([light.clone()]).unwrap()).collect();
         for (side, point) in [(up(), [0.1, 0.0, 0.2]), (Side::None, [0.3, 0.5, 0.0]), (Side::Both, [0.0; 3])] {
             let receiver = Receiver { point: v(point), side, on: None };
             let at = set.at(receiver);
@@ -232,6 +234,16 @@ fn pdfs_of_directions_are_those_of_samples() {
                 seen[s.which.light as usize] += 1;
                 let pdf =
                     if i % 2 == 0 { at.pdf(s.which, s.direction) } else { set.at(receiver).pdf(s.which, s.direction) };
+                let alone = alone[s.which.light as usize].at(receiver).pdf(0, s.direction);
+                match s.which.light {
+                    11..=14 => assert_eq!(bits(s.pmf), bits(s.pdf)),
+                    // a line has a measure of its own, and the pmf of a mesh is that of the triangle
+                    7 | 10 => assert!(s.pmf.lane_f64(0) > 0.0),
+                    _ => assert!(
+                        ((alone * s.pmf).lane_f64(0) - pdf.lane_f64(0)).abs() <= 1e-6 * pdf.lane_f64(0),
+                        "{s:?}"
+                    ),
+                }
                 match s.which.light {
                     // from the side, a direction may meet the patch twice
                     6 if s.direction.dot(s.normal).lane_f64(0) > -0.1 => {}
@@ -459,9 +471,9 @@ fn any_input_gives_finite_samples() {
     check::<f64>(&[0.0, 1.0, -1.0, 1e-300, 1e-20, 1e20, 1e300, f64::NAN, f64::INFINITY, 0.3]);
 }
 
-/// A sphere under a map that keeps angles is a sphere; one that is stretched by a thousandth is not.
+/// A sphere or a disk under a map that keeps angles is one; if it is stretched by a thousandth, it is not.
 #[test]
-fn round_ellipsoids_are_spheres() {
+fn round_images_are_spheres_and_disks() {
     let axes = |stretch: f64| [[0.0, 1.2, 1.6], [2.0 * stretch, 0.0, 0.0], [0.0, 1.6, -1.2]].map(v::<f32>);
     let light =
         |stretch| Emitter::from(Affine::new(Sphere::new(v([0.5, 0.0, 0.0]), 0.25), axes(stretch), v([0.0, 3.0, 0.0])));
@@ -470,6 +482,22 @@ fn round_ellipsoids_are_spheres() {
     let (round, stretched) = ([(light(1.0), 1.0)], [(light(1.001), 1.0)]);
     let [a, b] = [&round, &stretched].map(|lights| estimate(lights, up(), v([0.0; 3]), 11));
     assert!((a[0] / b[0] - 1.0).abs() < 0.004, "{a:?} {b:?}");
+    // seen from both sides, by maps that mirror and that do not
+    for mirror in [1.0, -1.0] {
+        let disk = |stretch| {
+            let [x, y, z] = axes(stretch);
+            let disk = Disk::new(v([0.5, 0.0, 0.0]), v([0.0, -0.6, 0.8]), 0.25);
+            [(Emitter::from(Affine::new(disk, [x * mirror, y, z], v([0.0, 3.0, 0.0]))), 1.0)]
+        };
+        let [round, stretched] = [disk(1.0), disk(1.001)];
+        assert!(format!("{round:?}").contains("shape: Disk(") && format!("{stretched:?}").contains("Ellipse("));
+        for side in [up(), Side::Surface(v([0.0, -1.0, 0.0]))] {
+            for height in [0.0, 8.0] {
+                let [a, b] = [&round, &stretched].map(|lights| estimate(lights, side, v([0.3, height, 0.2]), 12));
+                assert!((a[0] - b[0]).abs() <= 0.006 * b[0], "{mirror} {height} {a:?} {b:?}");
+            }
+        }
+    }
 }
 
 /// Sets may be shared among threads and sent to them; a prepared one belongs to its thread. Prepared lights are of the sizes that are stated.
