@@ -3,18 +3,20 @@
 use super::mixture::Source;
 use crate::light::{
     Affine, BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, Line, Parallelogram, PointLight, Polygon,
-    Rectangle, Sphere, SpotLight, Sun, Triangle,
+    Rectangle, Rotated, Sphere, SpotLight, Sun, Triangle,
 };
+use crate::owned::OwnedEnvironment;
 use crate::real::{Mask, Real};
 use crate::select::LightBound;
 use crate::vector::{Frame, Vec3};
 use alloc::boxed::Box;
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::f64::consts::PI;
 
-/// A light of any kind, as `Lights` take it: what the shapes, their images under an [`Affine`] map, suns and a constant sky
-/// convert into. Normals and directions may be of any length. Its radiance is given beside it; of point and spot lights their intensity, of directional lights the irradiance on a
-/// surface that faces them, of lines the radiance times the width.
+/// A light of any kind, as `Lights` take it: what the shapes, their images under an [`Affine`] map, suns, a constant sky, and one that is an
+/// image convert into. Normals and directions may be of any length. Its radiance is given beside it; of point and spot lights their intensity, of directional lights the irradiance on a
+/// surface that faces them, of lines the radiance times the width, and of an image the mean of its radiance over all directions.
 ///
 /// ```
 /// use etendue::{Triangle, Vec3, lights::Emitter};
@@ -100,6 +102,7 @@ pub(super) enum Shape<R: Real<Scalar = R>> {
     Directional(DirectionalLight<R>),
     Sun(Sun<R>),
     Sky,
+    Image(Arc<Rotated<OwnedEnvironment, R>>),
 }
 
 /// The unit vector in the direction of one of any length, in which no host's number overflows.
@@ -168,6 +171,8 @@ shapes! {
     Directional = DirectionalLight<R> => |light| Shape::Directional(DirectionalLight::new(unit(light.direction)));
     Sun = Sun<R> => |light| Shape::Sun(Sun { direction: unit(light.direction), ..light });
     Sky = ConstantEnvironment => |_| Shape::Sky;
+    Image = OwnedEnvironment => |sampler| Shape::Image(Arc::new(Rotated { sampler, frame: Frame { s: Vec3::lit([1.0, 0.0, 0.0]), t: Vec3::lit([0.0, 1.0, 0.0]), n: Vec3::lit([0.0, 0.0, 1.0]) } }));
+    Turned = Rotated<OwnedEnvironment, R> => |sky| Shape::Image(Arc::new(sky));
 }
 impl<R: Real<Scalar = R>, const N: usize> From<Polygon<R, N>> for Emitter<R> {
     fn from(light: Polygon<R, N>) -> Self {
@@ -259,7 +264,7 @@ impl<R: Real<Scalar = R>> Shape<R> {
                 let reach = ((2.0 * c).sqrt() * (1.0 + 1e-6) + 1e-6) as f32;
                 return (far(irradiance), Source::Sun(narrow(light.direction), reach, 0.0));
             }
-            Self::Sky => return (far(PI), Source::Sky),
+            Self::Sky | Self::Image(_) => return (far(PI), Source::Sky),
         };
         (bound, Source::Lamp)
     }
