@@ -105,6 +105,11 @@ pub(super) enum Shape<R: Real<Scalar = R>> {
     Image(Arc<Rotated<OwnedEnvironment, R>>),
 }
 
+/// A sun with a unit direction; without any direction, it has no extent.
+fn somewhere<R: Real>(sun: Sun<R>) -> Sun<R> {
+    let direction = unit(sun.direction);
+    Sun { direction, one_minus_cos: sun.one_minus_cos.keep(direction.max_abs().gt(R::lit(0.0))) }
+}
 /// The unit vector in the direction of one of any length, in which no host's number overflows.
 fn unit<R: Real>(v: Vec3<R>) -> Vec3<R> {
     v.unit_and_length().0
@@ -169,7 +174,7 @@ shapes! {
     Point = PointLight<R> => Shape::Point;
     Spot = SpotLight<R> => |light| Shape::Spot(SpotLight { axis: unit(light.axis), ..light });
     Directional = DirectionalLight<R> => |light| Shape::Directional(DirectionalLight::new(unit(light.direction)));
-    Sun = Sun<R> => |light| Shape::Sun(Sun { direction: unit(light.direction), ..light });
+    Sun = Sun<R> => |light| Shape::Sun(somewhere(light));
     Sky = ConstantEnvironment => |_| Shape::Sky;
     Image = OwnedEnvironment => |sampler| Shape::Image(Arc::new(Rotated { sampler, frame: Frame { s: Vec3::lit([1.0, 0.0, 0.0]), t: Vec3::lit([0.0, 1.0, 0.0]), n: Vec3::lit([0.0, 0.0, 1.0]) } }));
     Turned = Rotated<OwnedEnvironment, R> => |sky| Shape::Image(Arc::new(sky));

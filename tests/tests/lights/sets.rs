@@ -476,6 +476,9 @@ fn any_input_gives_finite_samples() {
                 }
             }
         }
+        let nowhere = Lights::new([(Sun::new(v([0.0; 3]), R::lit(0.5)), R::lit(1.0))]).unwrap();
+        let s = nowhere.at(Receiver { point: v([0.0; 3]), side: Side::Both, on: None }).sample([R::lit(0.3); 3]);
+        assert_eq!(bits(s.pdf), 0);
         let none = Lights::<R>::new::<Emitter<R>>([]).unwrap();
         assert!(none.is_empty());
         let s = none.at(Receiver { point: v([0.0; 3]), side: up(), on: None }).sample([R::lit(0.5); 3]);
