@@ -1,6 +1,7 @@
 //! Rays that leave the lights of a set.
 
 use super::emitter::Shape;
+use super::prepared;
 use crate::light::{Affine, AreaSurface, EnvironmentBySolidAngle, LightSampler, Sphere, SpotLight, SurfacePoint};
 use crate::math::ratio;
 use crate::real::{Real, unit_interval};
@@ -126,6 +127,10 @@ pub(super) fn emit<R: Real<Scalar = R>>(shape: &Shape<R>, face: Face, u: [R; 4],
         Shape::Directional(light) => from_afar(light.direction, one, scene, place),
         Shape::Sun(light) => {
             let s = light.by_solid_angle().sample(turn);
+            from_afar(s.direction, s.pdf, scene, place)
+        }
+        Shape::Image(sky) => {
+            let s = prepared::sky(sky).sample(turn);
             from_afar(s.direction, s.pdf, scene, place)
         }
         Shape::Sky => {

@@ -3,18 +3,20 @@
 use super::mixture::Source;
 use crate::light::{
     Affine, BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, Line, Parallelogram, PointLight, Polygon,
-    Rectangle, Sphere, SpotLight, Sun, Triangle,
+    Rectangle, Rotated, Sphere, SpotLight, Sun, Triangle,
 };
+use crate::owned::OwnedEnvironment;
 use crate::real::{Mask, Real};
 use crate::select::LightBound;
-use crate::vector::Vec3;
+use crate::vector::{Frame, Vec3};
 use alloc::boxed::Box;
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::f64::consts::PI;
 
-/// A light of any kind, as `Lights` take it: what the shapes, their images under an [`Affine`] map, suns and a constant sky
-/// convert into. Normals and directions may be of any length. Its radiance is given beside it; of point and spot lights their intensity, of directional lights the irradiance on a
-/// surface that faces them, of lines the radiance times the width.
+/// A light of any kind, as `Lights` take it: what the shapes, their images under an [`Affine`] map, suns, a constant sky, and one that is an
+/// image convert into. Normals and directions may be of any length. Its radiance is given beside it; of point and spot lights their intensity, of directional lights the irradiance on a
+/// surface that faces them, of lines the radiance times the width, and of an image the mean of its radiance over all directions.
 ///
 /// ```
 /// use etendue::{Triangle, Vec3, lights::Emitter};
@@ -100,8 +102,14 @@ pub(super) enum Shape<R: Real<Scalar = R>> {
     Directional(DirectionalLight<R>),
     Sun(Sun<R>),
     Sky,
+    Image(Arc<Rotated<OwnedEnvironment, R>>),
 }
 
+/// A sun with a unit direction; without any direction, it has no extent.
+fn somewhere<R: Real>(sun: Sun<R>) -> Sun<R> {
+    let direction = unit(sun.direction);
+    Sun { direction, one_minus_cos: sun.one_minus_cos.keep(direction.max_abs().gt(R::lit(0.0))) }
+}
 /// The unit vector in the direction of one of any length, in which no host's number overflows.
 fn unit<R: Real>(v: Vec3<R>) -> Vec3<R> {
     v.unit_and_length().0
@@ -110,16 +118,37 @@ fn upright<R: Real>(disk: Disk<R>) -> Disk<R> {
     Disk { normal: unit(disk.normal), ..disk }
 }
 
+fn rounding<R: Real>() -> R {
+    R::lit(if R::DOUBLE { f64::EPSILON } else { f64::from(f32::EPSILON) })
+}
+
 /// The image of a sphere if it is one, to within the rounding of the axes: cheaper, and uniform by solid angle.
 fn round<R: Real<Scalar = R>>(light: &Affine<Sphere<R>, R>) -> Option<Sphere<R>> {
     let lengths = light.axes.map(|axis| axis.unit_and_length().1);
     let [x, y, z] = light.axes.map(unit);
-    let slack = R::lit(if R::DOUBLE { 4.0 * f64::EPSILON } else { 4.0 * f64::from(f32::EPSILON) });
+    let slack = R::lit(4.0) * rounding();
     let is_small = |x: R| x.abs().le(slack).any();
     let is_equal = |other: R| is_small((other - lengths[0]) / lengths[0]);
     let is_round =
         [x.dot(y), y.dot(z), z.dot(x)].into_iter().all(is_small) && is_equal(lengths[1]) && is_equal(lengths[2]);
     is_round.then(|| Sphere::new(light.image(light.shape.center), light.shape.radius * lengths[0]))
+}
+
+/// The image of a disk if it is one, to within the rounding of the axes.
+fn circle<R: Real<Scalar = R>>(light: &Affine<Disk<R>, R>) -> Option<Disk<R>> {
+    let [x, y, z] = light.axes;
+    let Frame { s, t, n } = Frame::new(unit(light.shape.normal));
+    let image = |v: Vec3<R>| (x * v.x + y * v.y + z * v.z).unit_and_length();
+    let ([(s, length), (t, other), (n, _)], slack) = ([s, t, n].map(image), R::lit(8.0) * rounding());
+    let (normal, zero) = (s.cross(t), R::lit(0.0));
+    let is_small = |x: R| x.abs().le(slack);
+    let is_round = is_small(s.dot(t)) & is_small((other - length) / length) & normal.dot(n).abs().gt(zero);
+    let disk = || Disk {
+        center: light.image(light.shape.center),
+        normal: unit(normal) * R::lit(1.0).copysign(normal.dot(n)),
+        radius: light.shape.radius * length,
+    };
+    is_round.any().then(disk)
 }
 
 macro_rules! shapes {
@@ -141,12 +170,14 @@ shapes! {
     Patch = BilinearPatch<R> => Shape::Patch;
     Line = Line<R> => Shape::Line;
     Ellipsoid = Affine<Sphere<R>, R> => |light| round(&light).map_or_else(|| Shape::Ellipsoid(Box::new(light)), Shape::Sphere);
-    Ellipse = Affine<Disk<R>, R> => |light| Shape::Ellipse(Box::new(Affine { shape: upright(light.shape), ..light }));
+    Ellipse = Affine<Disk<R>, R> => |light| circle(&light).map_or_else(|| Shape::Ellipse(Box::new(Affine { shape: upright(light.shape), ..light })), Shape::Disk);
     Point = PointLight<R> => Shape::Point;
     Spot = SpotLight<R> => |light| Shape::Spot(SpotLight { axis: unit(light.axis), ..light });
     Directional = DirectionalLight<R> => |light| Shape::Directional(DirectionalLight::new(unit(light.direction)));
-    Sun = Sun<R> => |light| Shape::Sun(Sun { direction: unit(light.direction), ..light });
+    Sun = Sun<R> => |light| Shape::Sun(somewhere(light));
     Sky = ConstantEnvironment => |_| Shape::Sky;
+    Image = OwnedEnvironment => |sampler| Shape::Image(Arc::new(Rotated { sampler, frame: Frame { s: Vec3::lit([1.0, 0.0, 0.0]), t: Vec3::lit([0.0, 1.0, 0.0]), n: Vec3::lit([0.0, 0.0, 1.0]) } }));
+    Turned = Rotated<OwnedEnvironment, R> => |sky| Shape::Image(Arc::new(sky));
 }
 impl<R: Real<Scalar = R>, const N: usize> From<Polygon<R, N>> for Emitter<R> {
     fn from(light: Polygon<R, N>) -> Self {
@@ -238,7 +269,7 @@ impl<R: Real<Scalar = R>> Shape<R> {
                 let reach = ((2.0 * c).sqrt() * (1.0 + 1e-6) + 1e-6) as f32;
                 return (far(irradiance), Source::Sun(narrow(light.direction), reach, 0.0));
             }
-            Self::Sky => return (far(PI), Source::Sky),
+            Self::Sky | Self::Image(_) => return (far(PI), Source::Sky),
         };
         (bound, Source::Lamp)
     }

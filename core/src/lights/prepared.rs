@@ -2,13 +2,13 @@
 
 use super::emitter::Shape;
 use super::receiver::Side;
-use crate::light::DirectionSample;
 use crate::light::{
-    AffineSampler, ConstantEnvironment, DirectionalLightByDelta, DiskBySolidAngle, EnvironmentByProjectedSolidAngle,
-    EnvironmentBySolidAngle, FAR, LightSample, LightSampler, LineByAngle, ParallelogramBySolidAngle, PatchByArea,
-    PointLightByDelta, PolygonBySolidAngle, RectangleBySolidAngle, SeenShape, SphereBySolidAngle, SphericalShape,
-    SpotLightByDelta, SunBySolidAngle, TriangleBySolidAngle,
+    AffineSampler, ByRadiance, ConstantEnvironment, DirectionSample, DirectionalLightByDelta, DiskBySolidAngle,
+    EnvironmentByProjectedSolidAngle, EnvironmentBySolidAngle, FAR, LightSample, LightSampler, LineByAngle,
+    ParallelogramBySolidAngle, PatchByArea, PointLightByDelta, PolygonBySolidAngle, RectangleBySolidAngle, Rotated,
+    SeenShape, SphereBySolidAngle, SphericalShape, SpotLightByDelta, SunBySolidAngle, TriangleBySolidAngle,
 };
+use crate::owned::OwnedEnvironment;
 use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
@@ -79,6 +79,8 @@ impl<R: Real<Scalar = R>> Prepared<R> {
             Shape::Spot(light) => *self = Self::Spot(light.by_delta(p)),
             Shape::Directional(light) => *self = Self::Directional(light.by_delta()),
             Shape::Sun(light) => *self = Self::Sun(light.by_solid_angle()),
+            // its tables are looked up without preparation
+            Shape::Image(_) => *self = Self::Sky(EnvironmentBySolidAngle),
             Shape::Sky => match side {
                 Side::Surface(normal) => {
                     // of any length, so that no number overflows
@@ -89,9 +91,14 @@ impl<R: Real<Scalar = R>> Prepared<R> {
             },
         }
     }
-    /// Draws a sample. The normal of a shape that is seen is the set's to find.
+    /// Draws a sample of this shape, for which it was prepared. The normal of a shape that is seen is the set's to find.
     #[inline(always)]
-    pub(super) fn sample(&self, u: Vec2<R>) -> Drawn<R> {
+    pub(super) fn sample(&self, shape: &Shape<R>, u: Vec2<R>) -> Drawn<R> {
+        if let Shape::Image(image) = shape {
+            let s = sky(image).sample(u);
+            let is_number = ((u.x + u.y) * R::lit(0.0)).ge(R::lit(0.0));
+            return Drawn { pdf: s.pdf.keep(is_number), ..Drawn::from(s) };
+        }
         each!(self,
             seen => {
                 let (DirectionSample { direction, distance }, _) = seen.sample_point(u);
@@ -100,14 +107,16 @@ impl<R: Real<Scalar = R>> Prepared<R> {
                 Drawn { direction, distance, pdf, normal: Vec3::ZERO, emits: seen.in_front().any(), delta: false }
             },
             light => {
-                let LightSample { direction, distance, pdf, normal, emits, delta, .. } = light.sample(u);
-                Drawn { direction, distance, pdf, normal, emits: emits.any(), delta: delta.any() }
+                Drawn::from(light.sample(u))
             }
         )
     }
     /// The pdf of a unit direction.
     #[inline(always)]
-    pub(super) fn pdf(&self, w: Vec3<R>) -> R {
+    pub(super) fn pdf(&self, shape: &Shape<R>, w: Vec3<R>) -> R {
+        if let Shape::Image(image) = shape {
+            return sky(image).pdf(w);
+        }
         each!(self, seen => seen.pdf(w), light => light.pdf(w))
     }
 }
@@ -121,6 +130,19 @@ pub(super) struct Drawn<R> {
     pub(super) normal: Vec3<R>,
     pub(super) emits: bool,
     pub(super) delta: bool,
+}
+
+impl<R: Real<Scalar = R>> From<LightSample<R>> for Drawn<R> {
+    #[inline(always)]
+    fn from(sample: LightSample<R>) -> Self {
+        let LightSample { direction, distance, pdf, normal, emits, delta, .. } = sample;
+        Self { direction, distance, pdf, normal, emits: emits.any(), delta: delta.any() }
+    }
+}
+
+/// The sampler of an image of the sky.
+pub(super) fn sky<R: Real>(image: &Rotated<OwnedEnvironment, R>) -> Rotated<ByRadiance<'_>, R> {
+    Rotated { sampler: image.sampler.get().by_radiance(), frame: image.frame }
 }
 
 /// The point of a sample, and how far it is at most from the light.
@@ -167,7 +189,7 @@ pub(super) fn point<R: Real<Scalar = R>>(shape: &Shape<R>, p: Vec3<R>, sample: &
         }
         Shape::Point(light) => (light.position, R::lit(0.0)),
         Shape::Spot(light) => (light.position, R::lit(0.0)),
-        Shape::Directional(_) | Shape::Sun(_) | Shape::Sky => (sample.direction * far, R::lit(0.0)),
+        Shape::Directional(_) | Shape::Sun(_) | Shape::Sky | Shape::Image(_) => (sample.direction * far, R::lit(0.0)),
     };
     // coordinates may overflow
     (point.map(|x| x.clamped(-far, far)), bound.clamped(R::lit(0.0), far))

@@ -75,6 +75,9 @@ pub struct LightsSample<R> {
     /// Probability of the light times the density of the direction, per steradian; of point, spot and directional lights the probability
     /// alone; of lines in their [measure](crate::Line). 0 where there is no sample.
     pub pdf: R,
+    /// Probability with which the light was chosen, which is a factor of `pdf`: a host that first chooses a light and then weighs the two ways
+    /// to meet that one divides pdfs by it.
+    pub pmf: R,
     /// What the radiance of the light is to be multiplied by: 1, of a point light 1/distance², of a spot light that times its falloff;
     /// 0 where the light does not emit towards the receiver.
     pub factor: R,

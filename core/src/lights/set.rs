@@ -50,7 +50,8 @@ impl<R: Real<Scalar = R>> Part<R> {
 /// A set of lights of any kind.
 ///
 /// A choice among them is that of a [`Mixture`], by what each can contribute at the receiver. The light is then sampled by solid angle;
-/// a bilinear patch by area, a line by angle, and a constant sky above a surface by projected solid angle.
+/// a bilinear patch by area, a line by angle, a constant sky above a surface by projected solid angle, and an image of the sky by the weights
+/// of its texels.
 ///
 /// - Domain: up to 2²⁷ lights and triangles of meshes together. A radiance that is not positive makes a light dark. The choice works in
 ///   single precision: in double precision, a light that is above the horizon of a surface by less than the rounding of a place to
@@ -66,7 +67,7 @@ pub struct Lights<R: Real<Scalar = R>> {
     /// The index of the first part of each light, and the number of parts.
     first: Vec<u32>,
     choice: Mixture,
-    /// The radiance of the sky, in the unit of the other lights.
+    /// The radiance of the first sky, in the unit of the other lights.
     sky: f64,
 }
 
@@ -125,6 +126,8 @@ struct Last<R: Real<Scalar = R>> {
     index: u32,
     /// Whether the receiver is on it.
     is_on: bool,
+    /// The probability of its choice; negative while that is not known.
+    pmf: R,
     prepared: Prepared<R>,
 }
 
@@ -207,21 +210,25 @@ fn build<R: Real<Scalar = R>>(lights: Vec<(Emitter<R>, R)>) -> Result<Lights<R>,
         let least = f64::from(f32::MIN_POSITIVE);
         if power > 0.0 { (power / greatest).greater(least) as f32 } else { 0.0 }
     };
-    let mut sky = 0.0;
-    let sources = bounds.iter().map(|(bound, source, power)| match *source {
+    let mut sky = None;
+    let mut sources = Vec::with_capacity(count);
+    for &(bound, source, power) in &bounds {
         // intensity and radiance are in the ratio of the powers
-        Source::Beam(light, _) => Source::Beam(light, (power / f64::from(bound.power) / greatest) as f32),
-        Source::Sun(direction, reach, _) => Source::Sun(direction, reach, relative(*power)),
-        source => source,
-    });
-    let sources: Vec<Source> = sources.collect();
-    for ((bound, source, power), _) in bounds.iter().zip(0..) {
-        if matches!(source, Source::Sky) {
-            sky += power / f64::from(bound.power) / greatest;
-        }
+        let unit = power / f64::from(bound.power) / greatest;
+        sources.push(match source {
+            Source::Beam(light, _) => Source::Beam(light, unit as f32),
+            Source::Sun(direction, reach, _) => Source::Sun(direction, reach, relative(power)),
+            // others than the first are suns that cover all directions
+            Source::Sky if sky.is_some() => Source::Sun([0.0, 0.0, 1.0], 2.0, relative(power)),
+            Source::Sky => {
+                sky = Some(unit);
+                source
+            }
+            Source::Lamp => source,
+        });
     }
     let bounds = bounds.iter().map(|&(bound, _, power)| LightBound { power: relative(power), ..bound }).collect();
-    Ok(Lights { parts, first, choice: Mixture::new(bounds, sources, &())?, sky })
+    Ok(Lights { parts, first, choice: Mixture::new(bounds, sources, &())?, sky: sky.unwrap_or(0.0) })
 }
 
 #[inline(always)]
@@ -231,7 +238,12 @@ fn at<R: Real<Scalar = R>>(lights: &Lights<R>, receiver: Receiver<R>) -> LightsA
     // each in its place, so that kilobytes are not moved
     macro_rules! none {
         () => {
-            RefCell::new(Last { index: u32::MAX, is_on: false, prepared: Prepared::Sky(EnvironmentBySolidAngle) })
+            RefCell::new(Last {
+                index: u32::MAX,
+                is_on: false,
+                pmf: R::lit(-1.0),
+                prepared: Prepared::Sky(EnvironmentBySolidAngle),
+            })
         };
     }
     if lights.choice.has_lamps_alone() {
@@ -252,13 +264,18 @@ impl<R: Real<Scalar = R>> LightsAt<'_, R> {
         };
         (choice.index.lane(0), choice.pmf)
     }
+    /// The pmf of the light that is prepared, which has this index.
     #[inline(always)]
     fn pmf(&self, index: u32) -> R {
-        match &self.choice {
-            Some(choice) => choice.pmf(index),
-            None if self.lights.parts.len() == 1 => R::lit(1.0),
-            None => self.lights.choice.shared(self.lamps().pmf_of(index)),
+        let mut last = self.last.borrow_mut();
+        if last.pmf.lt(R::lit(0.0)).any() {
+            last.pmf = match &self.choice {
+                Some(choice) => choice.pmf(index),
+                None if self.lights.parts.len() == 1 => R::lit(1.0),
+                None => self.lights.choice.shared(self.lamps().pmf_of(index)),
+            };
         }
+        last.pmf
     }
     #[inline(always)]
     fn lamps(&self) -> TreeAt<'_, R> {
@@ -269,9 +286,10 @@ impl<R: Real<Scalar = R>> LightsAt<'_, R> {
     fn with<T>(&self, index: u32, part: &Part<R>, f: impl FnOnce(&Prepared<R>) -> T) -> (T, bool) {
         let Receiver { point, side, on } = self.receiver;
         let mut last = self.last.borrow_mut();
-        let Last { index: of, is_on, prepared } = &mut *last;
+        let Last { index: of, is_on, pmf, prepared } = &mut *last;
         if *of != index {
             *of = index;
+            *pmf = R::lit(-1.0);
             *is_on = on == Some(part.which) || part.holds(point);
             prepared.prepare(&part.shape, point, side);
         }
@@ -288,7 +306,9 @@ fn sample<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, [u, v, w]: [R; 3]) -> Light
     let (index, pmf) = at.choose(unit_interval(u), R::unit(R::Uint::splat(hash)));
     // what cannot contribute is not prepared
     let Some(part) = at.lights.parts.get(index as usize).filter(|_| pmf.gt(zero).any()) else { return nothing() };
-    let (mut sample, is_on): (Drawn<R>, bool) = at.with(index, part, |light| light.sample(Vec2::new(v, w)));
+    let (mut sample, is_on): (Drawn<R>, bool) =
+        at.with(index, part, |light| light.sample(&part.shape, Vec2::new(v, w)));
+    at.last.borrow_mut().pmf = pmf;
     let normal = part.normal(at.receiver.point, &sample);
     // of numbers that overflow there is none
     sample.normal = normal.keep(normal.is_within(R::lit(2.0)));
@@ -309,6 +329,7 @@ fn sample<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, [u, v, w]: [R; 3]) -> Light
         bound,
         normal,
         pdf: pdf.keep(mask(some)),
+        pmf,
         factor: R::blend(mask(some && emits), factor, zero),
         delta: sample.delta,
     }
@@ -318,7 +339,8 @@ fn sample<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, [u, v, w]: [R; 3]) -> Light
 fn nothing<R: Real>() -> LightsSample<R> {
     let (zero, which) = (R::lit(0.0), Which::default());
     let [direction, point, normal] = [Vec3::ZERO; 3];
-    LightsSample { which, direction, distance: zero, point, bound: zero, normal, pdf: zero, factor: zero, delta: false }
+    let [distance, bound, pdf, pmf, factor] = [zero; 5];
+    LightsSample { which, direction, distance, point, bound, normal, pdf, pmf, factor, delta: false }
 }
 
 /// A part of a light and its index, if there is one.
@@ -349,8 +371,10 @@ fn pdf<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, which: Which, w: Vec3<R>) -> R
     if matches!(part.shape, Shape::Line(_) | Shape::Point(_) | Shape::Spot(_) | Shape::Directional(_)) {
         return R::lit(0.0);
     }
-    let (pdf, is_on) = at.with(index, part, |light| light.pdf(w));
-    (at.pmf(index) * pdf).keep(R::Mask::splat(!is_on))
+    let (pdf, is_on) = at.with(index, part, |light| light.pdf(&part.shape, w));
+    // most directions of other techniques miss the light
+    let zero = R::lit(0.0);
+    if is_on || !pdf.gt(zero).any() { zero } else { at.pmf(index) * pdf }
 }
 
 #[cfg(test)]
@@ -361,6 +385,6 @@ mod tests {
     #[test]
     fn sizes_are_as_stated() {
         let sizes = [size_of::<Part<f32>>(), size_of::<Part<f64>>(), size_of::<LightsAt<'_, f32>>()];
-        assert_eq!(sizes, [104, 184, 2144]);
+        assert_eq!(sizes, [104, 184, 2152]);
     }
 }

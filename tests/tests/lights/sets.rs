@@ -1,10 +1,11 @@
 //! Sets of lights of all kinds.
 
-use etendue::light::Affine;
+use etendue::light::{Affine, EnvironmentMap, Rotated};
 use etendue::lights::{Emitter, Lights, LightsSample, Number, Receiver, Side, Which};
+use etendue::owned::OwnedEnvironment;
 use etendue::sequence::{Independent, Sequence};
 use etendue::{
-    BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, Line, Parallelogram, PointLight, Polygon, Real,
+    BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, Frame, Line, Parallelogram, PointLight, Polygon, Real,
     Rectangle, Sphere, SpotLight, Sun, Triangle, Vec2, Vec3, Warp, warp::UniformSphere,
 };
 use etendue_oracle::tier::cases;
@@ -24,6 +25,12 @@ fn numbers<R: Real<Scalar = R, Uint = u32>>(seed: u32, i: u32) -> [R; 3] {
 fn ellipsoid<R: Real>() -> Affine<Sphere<R>, R> {
     let axes = [[1.0, 0.2, 0.0], [0.0, 0.4, 0.1], [-0.3, 0.0, 0.6]].map(v);
     Affine::new(Sphere::new(v([0.1, 0.2, 0.0]), R::lit(0.9)), axes, v([1.5, 2.5, -0.5]))
+}
+
+/// A sky of different texels.
+fn image() -> OwnedEnvironment {
+    let weights: Vec<f32> = (0..32).map(|i| 0.2 + (i * 7 % 11) as f32).collect();
+    OwnedEnvironment::new(&weights, 8, EnvironmentMap::Equirectangular).unwrap()
 }
 
 /// One light of each kind with its radiance, all of which reach the origin from above y = 0.
@@ -65,6 +72,12 @@ fn every<R: Real<Scalar = R>>() -> Vec<(Emitter<R>, R)> {
         DirectionalLight::new(v([0.6, 0.8, 0.0])).into(),
         Sun::new(v([0.0, 0.8, 0.6]), R::lit(0.02)).into(),
         ConstantEnvironment.into(),
+        // with the image's zenith along x
+        Rotated {
+            sampler: image(),
+            frame: Frame { s: v([0.0, 0.0, 1.0]), t: v([0.0, 1.0, 0.0]), n: v([1.0, 0.0, 0.0]) },
+        }
+        .into(),
     ];
     lights.into_iter().zip(0..).map(|(light, i)| (light, R::lit(1.0 + 0.3 * f64::from(i)))).collect()
 }
@@ -217,12 +230,14 @@ fn bits<R: Real>(x: R) -> u64 {
     x.lane_f64(0).to_bits()
 }
 
-/// The pdf of the direction of a sample is its pdf, bit for bit; but of patches and lines.
+/// The pdf of the direction of a sample is its pdf, bit for bit; but of patches and lines. It is the product of the probability of the choice
+/// and the pdf of the light alone.
 #[test]
 fn pdfs_of_directions_are_those_of_samples() {
     fn check<R: Number + Real<Uint = u32>>() {
         let all = every::<R>();
         let set = Lights::new(all.iter().cloned()).unwrap();
+        let alone: Vec<_> = all.iter().map(|light| Lights::new([light.clone()]).unwrap()).collect();
         for (side, point) in [(up(), [0.1, 0.0, 0.2]), (Side::None, [0.3, 0.5, 0.0]), (Side::Both, [0.0; 3])] {
             let receiver = Receiver { point: v(point), side, on: None };
             let at = set.at(receiver);
@@ -232,6 +247,16 @@ fn pdfs_of_directions_are_those_of_samples() {
                 seen[s.which.light as usize] += 1;
                 let pdf =
                     if i % 2 == 0 { at.pdf(s.which, s.direction) } else { set.at(receiver).pdf(s.which, s.direction) };
+                let alone = alone[s.which.light as usize].at(receiver).pdf(0, s.direction);
+                match s.which.light {
+                    11..=14 => assert_eq!(bits(s.pmf), bits(s.pdf)),
+                    // a line has a measure of its own, and the pmf of a mesh is that of the triangle
+                    7 | 10 => assert!(s.pmf.lane_f64(0) > 0.0),
+                    _ => assert!(
+                        ((alone * s.pmf).lane_f64(0) - pdf.lane_f64(0)).abs() <= 1e-6 * pdf.lane_f64(0),
+                        "{s:?}"
+                    ),
+                }
                 match s.which.light {
                     // from the side, a direction may meet the patch twice
                     6 if s.direction.dot(s.normal).lane_f64(0) > -0.1 => {}
@@ -292,7 +317,7 @@ fn the_own_light_is_skipped() {
         }
         assert_eq!(others > 0, on.light == 10, "{others}");
         for beyond in
-            [Which::from(17), Which::from(u32::MAX), Which { light: 10, part: 5 }, Which { light: 0, part: u32::MAX }]
+            [Which::from(18), Which::from(u32::MAX), Which { light: 10, part: 5 }, Which { light: 0, part: u32::MAX }]
         {
             assert_eq!(at.pdf(beyond, v([0.0, 1.0, 0.0])), 0.0);
         }
@@ -436,6 +461,7 @@ fn any_input_gives_finite_samples() {
                     DirectionalLight::new(p).into(),
                     Sun::new(p, r).into(),
                     ConstantEnvironment.into(),
+                    image().into(),
                 ];
                 let radiances = [1.0, a, b, 1e-30].into_iter().cycle().map(R::lit);
                 let set = Lights::new(lights.into_iter().zip(radiances)).unwrap();
@@ -444,12 +470,15 @@ fn any_input_gives_finite_samples() {
                     for i in 0..40 {
                         let s = at.sample(numbers(case as u32, i));
                         assert!(s.pdf.lane_f64(0) == 0.0 || finite(&s), "{a} {b} {s:?}");
-                        assert!(at.pdf(i % 17, s.direction).lane_f64(0).is_finite());
+                        assert!(at.pdf(i % 18, s.direction).lane_f64(0).is_finite());
                     }
                     at.sample([R::lit(a), R::lit(b), R::lit(f64::NAN)]);
                 }
             }
         }
+        let nowhere = Lights::new([(Sun::new(v([0.0; 3]), R::lit(0.5)), R::lit(1.0))]).unwrap();
+        let s = nowhere.at(Receiver { point: v([0.0; 3]), side: Side::Both, on: None }).sample([R::lit(0.3); 3]);
+        assert_eq!(bits(s.pdf), 0);
         let none = Lights::<R>::new::<Emitter<R>>([]).unwrap();
         assert!(none.is_empty());
         let s = none.at(Receiver { point: v([0.0; 3]), side: up(), on: None }).sample([R::lit(0.5); 3]);
@@ -459,9 +488,9 @@ fn any_input_gives_finite_samples() {
     check::<f64>(&[0.0, 1.0, -1.0, 1e-300, 1e-20, 1e20, 1e300, f64::NAN, f64::INFINITY, 0.3]);
 }
 
-/// A sphere under a map that keeps angles is a sphere; one that is stretched by a thousandth is not.
+/// A sphere or a disk under a map that keeps angles is one; if it is stretched by a thousandth, it is not.
 #[test]
-fn round_ellipsoids_are_spheres() {
+fn round_images_are_spheres_and_disks() {
     let axes = |stretch: f64| [[0.0, 1.2, 1.6], [2.0 * stretch, 0.0, 0.0], [0.0, 1.6, -1.2]].map(v::<f32>);
     let light =
         |stretch| Emitter::from(Affine::new(Sphere::new(v([0.5, 0.0, 0.0]), 0.25), axes(stretch), v([0.0, 3.0, 0.0])));
@@ -470,6 +499,22 @@ fn round_ellipsoids_are_spheres() {
     let (round, stretched) = ([(light(1.0), 1.0)], [(light(1.001), 1.0)]);
     let [a, b] = [&round, &stretched].map(|lights| estimate(lights, up(), v([0.0; 3]), 11));
     assert!((a[0] / b[0] - 1.0).abs() < 0.004, "{a:?} {b:?}");
+    // seen from both sides, by maps that mirror and that do not
+    for mirror in [1.0, -1.0] {
+        let disk = |stretch| {
+            let [x, y, z] = axes(stretch);
+            let disk = Disk::new(v([0.5, 0.0, 0.0]), v([0.0, -0.6, 0.8]), 0.25);
+            [(Emitter::from(Affine::new(disk, [x * mirror, y, z], v([0.0, 3.0, 0.0]))), 1.0)]
+        };
+        let [round, stretched] = [disk(1.0), disk(1.001)];
+        assert!(format!("{round:?}").contains("shape: Disk(") && format!("{stretched:?}").contains("Ellipse("));
+        for side in [up(), Side::Surface(v([0.0, -1.0, 0.0]))] {
+            for height in [0.0, 8.0] {
+                let [a, b] = [&round, &stretched].map(|lights| estimate(lights, side, v([0.3, height, 0.2]), 12));
+                assert!((a[0] - b[0]).abs() <= 0.006 * b[0], "{mirror} {height} {a:?} {b:?}");
+            }
+        }
+    }
 }
 
 /// Sets may be shared among threads and sent to them; a prepared one belongs to its thread. Prepared lights are of the sizes that are stated.

@@ -2,10 +2,11 @@
 //! sample is that of its direction.
 
 use super::Input;
-use etendue::light::Affine;
+use etendue::light::{Affine, EnvironmentMap, Rotated};
 use etendue::lights::{Emitter, Lights, Number, Receiver, Side, Which};
+use etendue::owned::OwnedEnvironment;
 use etendue::{
-    BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, Line, Parallelogram, PointLight, Polygon, Real,
+    BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, Frame, Line, Parallelogram, PointLight, Polygon, Real,
     Rectangle, Sphere, SpotLight, Sun, Triangle, Vec3,
 };
 
@@ -17,7 +18,7 @@ fn emitter<R: Real<Scalar = R>>(input: &mut Input<'_>) -> (Emitter<R>, bool) {
     let v = |input: &mut Input<'_>| vector::<R>(input);
     let (a, b, c) = (v(input), v(input), v(input));
     let (x, y) = (R::lit(f64::from(input.number())), R::lit(f64::from(input.number())));
-    let kind = input.below(15);
+    let kind = input.below(16);
     let light: Emitter<R> = match kind {
         0 => Sphere::new(a, x).into(),
         1 => Triangle::new(a, b, c).into(),
@@ -33,7 +34,15 @@ fn emitter<R: Real<Scalar = R>>(input: &mut Input<'_>) -> (Emitter<R>, bool) {
         11 => SpotLight::new(a, b, [x, y]).into(),
         12 => DirectionalLight::new(a).into(),
         13 => Sun::new(a, x).into(),
-        _ => ConstantEnvironment.into(),
+        14 => ConstantEnvironment.into(),
+        _ => {
+            let weights = [(); 6].map(|()| input.unit());
+            match OwnedEnvironment::new(&weights, 3, EnvironmentMap::Equirectangular) {
+                Ok(sampler) => Rotated { sampler, frame: Frame::new(b.unit_and_length().0) }.into(),
+                // without any light
+                Err(_) => ConstantEnvironment.into(),
+            }
+        }
     };
     let light = match input.below(4) {
         0 => light.two_sided(),
@@ -65,7 +74,7 @@ fn check<R: Number>(input: &mut Input<'_>) {
     let number = |input: &mut Input<'_>| R::lit(f64::from(input.unit()));
     for _ in 0..4 {
         let s = at.sample([(); 3].map(|()| number(input)));
-        let is_whole = [s.distance, s.bound, s.pdf, s.factor, s.weight(), s.reach()].into_iter().all(finite);
+        let is_whole = [s.distance, s.bound, s.pdf, s.pmf, s.factor, s.weight(), s.reach()].into_iter().all(finite);
         assert!(is_whole && [s.direction, s.point, s.normal].into_iter().all(finite_vector), "{s:?}");
         assert!(s.pdf.lane_f64(0) >= 0.0 && s.weight().lane_f64(0) >= 0.0 && s.reach().lane_f64(0) >= 0.0, "{s:?}");
         let pdf = at.pdf(s.which, s.direction);
