@@ -148,7 +148,7 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
     })?;
     let plan = Plan { scenes, keys, replicates: extent.replicates, seed: options.seed, is_race: extent.is_race };
     let rows = render(&plan, options, &pool, stop, &mut notes)?;
-    let clock = Clock::of(&rows, pool.current_num_threads());
+    let clock = Clock::of(rows.values().flatten().map(Measurement::times), pool.current_num_threads());
     let baseline = Way { technique: options.baseline, choice: options.choices[0], sampler: Sampler::Independent };
     let summaries = (0..plan.scenes.len())
         .map(|scene| Summary::new(&plan, &rows, scene, baseline, clock))

@@ -143,9 +143,10 @@ fn no_best_is_named_where_intervals_overlap() {
 
     let mut outcome = outcome(&["quads"]);
     // two threads that ran all the time, and two that ran for half of it
-    assert_eq!(Clock::of(&outcome.rows, 2), Clock::Wall);
+    let clock = |outcome: &Outcome| Clock::of(outcome.rows.values().flatten().map(Measurement::times), 2);
+    assert_eq!(clock(&outcome), Clock::Wall);
     outcome.rows.values_mut().flatten().for_each(|row| row.seconds *= 2.0);
-    outcome.clock = Clock::of(&outcome.rows, 2);
+    outcome.clock = clock(&outcome);
     assert_eq!(outcome.clock, Clock::Processors(0.5));
     let page = page(&outcome);
     assert!(page.contains("the threads ran for 50 % of the time"), "the page says so");

@@ -1,7 +1,5 @@
 //! Which time counts: that on the wall, unless the threads were kept from running.
 
-use super::measure::{Measurement, Rows};
-
 /// Which time counts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Clock {
@@ -15,20 +13,20 @@ pub enum Clock {
 const KEPT: f64 = 0.9;
 
 impl Clock {
-    /// Wall time, unless the threads ran for less than nine tenths of it, as on a machine that does something else.
+    /// The clock for these times on the wall and of the processors: wall time, unless the threads ran for less than nine tenths of it, as on
+    /// a machine that does something else.
     #[must_use]
-    pub fn of(rows: &Rows, threads: usize) -> Self {
-        let all = || rows.values().flatten();
-        let wall: f64 = all().map(|row| row.seconds).sum::<f64>() * threads as f64;
-        match all().map(|row| row.cpu).sum::<Option<f64>>() {
+    pub fn of(times: impl Iterator<Item = (f64, Option<f64>)> + Clone, threads: usize) -> Self {
+        let wall: f64 = times.clone().map(|(wall, _)| wall).sum::<f64>() * threads as f64;
+        match times.map(|(_, cpu)| cpu).sum::<Option<f64>>() {
             Some(cpu) if cpu < KEPT * wall => Self::Processors(cpu / wall),
             _ => Self::Wall,
         }
     }
 
-    /// Seconds of a measurement.
-    pub(super) fn seconds(self, row: &Measurement) -> f64 {
-        if self == Self::Wall { row.seconds } else { row.cpu.unwrap_or(row.seconds) }
+    /// The seconds that count, of those on the wall and of the processors.
+    pub(super) fn seconds(self, wall: f64, cpu: Option<f64>) -> f64 {
+        if self == Self::Wall { wall } else { cpu.unwrap_or(wall) }
     }
 
     /// What a reader must know of the times; `None` if they are those of the wall.

@@ -89,11 +89,16 @@ pub struct Measurement {
 }
 
 impl Measurement {
+    /// Its time on the wall, and that of the processors.
+    #[must_use]
+    pub const fn times(&self) -> (f64, Option<f64>) {
+        (self.seconds, self.cpu)
+    }
     /// Time by a clock, and errors minus those of the reference.
     #[must_use]
     pub fn cost(&self, reference: &Reference, clock: Clock) -> Cost {
         let Difference { squared, relative, .. } = self.difference;
-        let seconds = clock.seconds(self);
+        let seconds = clock.seconds(self.seconds, self.cpu);
         Cost { mse: squared - reference.error, relative: relative - reference.relative_error, seconds }
     }
 }
