@@ -68,7 +68,7 @@ pub(crate) struct Options {
 
 /// Reads an image to compare with.
 fn reference(path: &Path, settings: &Settings) -> Result<(String, Arc<Film>), Box<dyn Error>> {
-    let Picture { width, height, radiance, variance } = read_exr(path)?;
+    let Picture { width, height, radiance, variance, .. } = read_exr(path)?;
     let Settings { width: w, height: h, .. } = *settings;
     if [width, height] != [w as usize, h as usize] {
         let name = path.display();
@@ -79,7 +79,7 @@ fn reference(path: &Path, settings: &Settings) -> Result<(String, Arc<Film>), Bo
     }
     let unknown = vec![[f32::INFINITY; 3]; radiance.len()];
     let both = radiance.into_iter().zip(variance.unwrap_or(unknown));
-    let pixels = both.map(|(mean, variance)| Pixel { mean, variance, samples: 0 }).collect();
+    let pixels = both.map(|(mean, variance)| Pixel { mean, variance, ..Pixel::default() }).collect();
     Ok((format!("reference {}", path.display()), Arc::new(Film { width: w, height: h, pixels })))
 }
 
