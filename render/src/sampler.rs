@@ -27,7 +27,7 @@ named! {
         Sobol4d = "sobol-4d",
         /// Owen-scrambled Sobol pairs distributed along a Z-order curve of pixels: blue noise
         ZOrder = "z-order",
-        /// Like sobol, with more samples in pixels whose neighbours have more variance
+        /// Like sobol where samples are counted per light, else like sobol-4d; more samples in pixels whose neighbours have more variance
         Adaptive = "adaptive",
     }
 }
@@ -156,9 +156,10 @@ const fn joint(dimension: u32) -> u32 {
 impl NumberSource {
     /// Prepares `spp` samples per pixel, in `sets` sets, for an image of this width.
     ///
-    /// Every count is valid; Sobol points are best if a set is a power of two.
+    /// Every count is valid; Sobol points are best if a set is a power of two. With [`Sampler::Adaptive`], points are joint in pixel and light
+    /// unless samples are `counted` per light, each of which has points of its own.
     #[must_use]
-    pub fn new(sampler: Sampler, seed: u64, spp: u32, sets: u32, width: u32) -> Self {
+    pub fn new(sampler: Sampler, seed: u64, [spp, sets]: [u32; 2], width: u32, counted: bool) -> Self {
         let set_size = match sampler {
             // its sets have no fixed length, so samples are counted within each
             Sampler::Adaptive => 0,
@@ -168,8 +169,9 @@ impl NumberSource {
         let (sequence, stride) = match sampler {
             Sampler::Independent => (AnySequence::Independent(Independent::new(seed)), set_size),
             Sampler::Stratified => (AnySequence::Stratified(Stratified::new(seed, set_size)), set_size),
-            Sampler::Sobol | Sampler::Adaptive => (AnySequence::Sobol(OwenSobol::new(seed)), set_size),
-            Sampler::Sobol4d => (AnySequence::Sobol4d(JointSobol::new(seed)), set_size),
+            Sampler::Adaptive if counted => (AnySequence::Sobol(OwenSobol::new(seed)), set_size),
+            Sampler::Sobol => (AnySequence::Sobol(OwenSobol::new(seed)), set_size),
+            Sampler::Sobol4d | Sampler::Adaptive => (AnySequence::Sobol4d(JointSobol::new(seed)), set_size),
             Sampler::ZOrder => {
                 let set = ZOrder::new(seed, set_size);
                 (AnySequence::ZOrder(set), set.samples())

@@ -12,7 +12,7 @@ type M8 = <X8 as Real>::Mask;
 
 /// Film, light and lens numbers of every sample of one pixel, in order.
 fn points(sampler: Sampler, spp: u32, pixel: [u32; 2], seed: u64) -> (Vec<[f64; 6]>, u32) {
-    let source = NumberSource::new(sampler, seed, spp, 0, 256);
+    let source = NumberSource::new(sampler, seed, [spp, 0], 256, true);
     let set = |i: u32| i.checked_div(source.set_size()).unwrap_or(0);
     let mut all = Vec::new();
     for start in (0..spp).step_by(8) {
@@ -123,7 +123,7 @@ fn sets_are_independent() {
 #[test]
 fn the_choice_of_a_light_has_numbers_of_its_own() {
     for sampler in [Sampler::Independent, Sampler::Sobol, Sampler::Sobol4d, Sampler::ZOrder] {
-        let source = NumberSource::new(sampler, 1, 64, 0, 8);
+        let source = NumberSource::new(sampler, 1, [64, 0], 8, true);
         let zero = u32x8::splat(0);
         let sample = u32x8::from([0, 1, 2, 3, 4, 5, 6, 7]);
         let packet = Packet { x: zero, y: zero, sample, set: zero, active: M8::splat(true) };
@@ -138,7 +138,7 @@ fn the_choice_of_a_light_has_numbers_of_its_own() {
 #[test]
 fn each_set_has_numbers_of_its_own() {
     for sampler in [Sampler::Independent, Sampler::Stratified, Sampler::Sobol, Sampler::Sobol4d, Sampler::ZOrder] {
-        let source = NumberSource::new(sampler, 5, 64, 4, 16);
+        let source = NumberSource::new(sampler, 5, [64, 4], 16, true);
         let mut seen = HashMap::new();
         for pixel in (0..256).map(|i| [i % 16, i / 16]) {
             for first in (0..64).step_by(8) {
@@ -158,7 +158,7 @@ fn each_set_has_numbers_of_its_own() {
 /// Samples that are counted per light: each pixel, set and light has numbers of its own on the light, and the pixel's own on the film.
 #[test]
 fn each_light_has_numbers_of_its_own() {
-    let source = NumberSource::new(Sampler::Sobol, 3, 64, 4, 256);
+    let source = NumberSource::new(Sampler::Sobol, 3, [64, 4], 256, true);
     assert!(source.allocates());
     let lanes = u32x8::from([0, 1, 2, 3, 4, 5, 6, 7]);
     let mut seen = HashMap::new();
