@@ -30,7 +30,7 @@ pub(crate) mod spot;
 pub(crate) mod sun;
 
 use crate::bvh::{PrimitiveId, PrimitiveIds};
-use crate::geometry::{self, Geometry};
+use crate::geometry::{self, Geometry, Kind};
 use crate::packet::{V8, X8, each_bit, equal, select};
 use crate::scene::light_picture::LightPicture;
 use crate::scene::light_profile::LightProfile;
@@ -151,6 +151,10 @@ impl Lights {
     /// Whether there are 1 to [`SpatialLights::MOST`] lights, and all have an area.
     pub fn only_few_areas(&self) -> bool {
         self.kinds & !ONLY_AREAS == 0 && (1..=FEW).contains(&self.len())
+    }
+    /// Whether there is one light, whose points can be uniform over projected solid angle and whose radiance is the same everywhere.
+    pub fn is_one_projected(&self) -> bool {
+        self.len() == 1 && self.kinds & !(SHAPES & !(1 << Kind::Disk as u32)) == 0
     }
     /// Lights with these indices.
     #[inline(always)]

@@ -60,6 +60,20 @@ fn auto_takes_what_does_not_miss_the_sun() {
     assert_eq!(image(&LARGE).0, image(&Settings { technique, choice, ..LARGE }).0);
     let (technique, _, trial) = taken(&sunny, &LARGE);
     assert_ne!(technique, Technique::Brdf, "{trial:?}");
+    // what misses neither the window nor the sun is tried, too
+    let trial = trial.unwrap();
+    let tried = [technique, trial.over.0];
+    assert!(tried.contains(&Technique::MisPower) && tried.contains(&Technique::SolidAngle), "{trial:?}");
+}
+
+/// One lamp over diffuse surfaces is sampled by projected solid angle in a trial, which says that the rule was kept.
+#[test]
+fn one_lamp_is_tried_by_projected_solid_angle() {
+    let lamp = World::new(&etendue_scene::load("sphere-light").unwrap()).unwrap();
+    let (technique, _, trial) = taken(&lamp, &LARGE);
+    let trial = trial.unwrap();
+    assert_eq!((technique, trial.over.0), (Technique::Analytic, Technique::ProjectedSolidAngle), "{trial:?}");
+    assert!(trial.is_rule && trial.times > 1.1, "{trial:?}");
 }
 
 /// Where a trial would take more than 3 % of the samples, the rule decides, and where there is only one way, nothing does.

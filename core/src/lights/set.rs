@@ -6,6 +6,7 @@ use super::mixture::{Mixture, MixtureAt, Source};
 use super::prepared::{self, Drawn, Prepared};
 use super::receiver::{LightsSample, Receiver, Side, Which};
 use crate::light::{EnvironmentBySolidAngle, Sphere};
+use crate::math::quotient;
 use crate::real::{Mask, Real, Uint, unit_interval};
 use crate::select::{LightBound, LightChoice, LightsError, TreeAt};
 use crate::vector::{Vec2, Vec3};
@@ -316,7 +317,7 @@ fn sample<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, [u, v, w]: [R; 3]) -> Light
     let emits = part.two_sided || sample.emits != part.reversed;
     let some = !is_on && sample.pdf.gt(zero).any();
     // of lights without an area, the pdf of a sample is 1 over what the intensity is to be multiplied by
-    let (pdf, factor) = if delta { (pmf, one / sample.pdf) } else { (pmf * sample.pdf, one) };
+    let (pdf, factor) = if delta { (pmf, quotient(one, sample.pdf)) } else { (pmf * sample.pdf, one) };
     let mask = |truth: bool| R::Mask::splat(truth);
     let (point, bound) = prepared::point(&part.shape, at.receiver.point, &sample);
     let is_behind = part.two_sided && sample.direction.dot(sample.normal).gt(zero).any();

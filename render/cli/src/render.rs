@@ -327,7 +327,8 @@ fn taken(settings: &Settings, (trial, seconds): &(Trial, f64)) -> String {
     };
     let (technique, choice) = trial.over;
     format!(
-        "auto took {}: {:.2} times as efficient as {} in {} tiles of a trial, {} of the samples, {seconds:.3} s",
+        "auto {} {}: {:.2} times as efficient as {} in {} tiles of a trial, {} of the samples, {seconds:.3} s",
+        if trial.is_rule { "kept its rule," } else { "took" },
         name(settings.technique, settings.choice),
         trial.times,
         name(technique, choice),

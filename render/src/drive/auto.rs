@@ -22,6 +22,8 @@ pub type Way = (Technique, ChoiceBy);
 /// What a trial has found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trial {
+    /// Whether the rule was kept.
+    pub is_rule: bool,
     /// The best of the ways that were not taken.
     pub over: Way,
     /// How many times as efficient as that is what was taken: the inverse ratio of variance × cost.
@@ -116,7 +118,7 @@ pub(super) fn best(ways: &[Way], plan: &Plan, tried: &[Tried], is_shared: bool) 
     let next = (0..ways.len()).filter(|&way| way != best).min_by(|a, b| scores[*a].total_cmp(&scores[*b]));
     let Some(next) = next.filter(|&next| scores[best] > 0.0 && scores[next] > 0.0) else { return (ways[0], None) };
     let (times, tiles) = (scores[next] / scores[best], plan.tiles.len());
-    (ways[best], Some(Trial { over: ways[next], times, tiles, part: plan.part }))
+    (ways[best], Some(Trial { is_rule: best == 0, over: ways[next], times, tiles, part: plan.part }))
 }
 
 impl Tried {
@@ -181,6 +183,7 @@ fn of_sample((technique, choice): Way, is_few: bool) -> f64 {
     let drawn = match technique {
         Technique::Brdf => return 8.0,
         Technique::MisPower | Technique::MisLobe => 16.0,
+        Technique::ProjectedSolidAngle => 60.0,
         _ => 8.0,
     };
     chosen + drawn

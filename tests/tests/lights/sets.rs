@@ -479,6 +479,12 @@ fn any_input_gives_finite_samples() {
         let nowhere = Lights::new([(Sun::new(v([0.0; 3]), R::lit(0.5)), R::lit(1.0))]).unwrap();
         let s = nowhere.at(Receiver { point: v([0.0; 3]), side: Side::Both, on: None }).sample([R::lit(0.3); 3]);
         assert_eq!(bits(s.pdf), 0);
+        // the square of the distance is subnormal
+        for x in [5e-21, 1e-160] {
+            let light = Lights::new([(PointLight::new(v([x, 0.0, 0.0])), R::lit(1.0))]).unwrap();
+            let s = light.at(Receiver { point: v([0.0; 3]), side: Side::Both, on: None }).sample([R::lit(0.3); 3]);
+            assert!(finite(&s), "{s:?}");
+        }
         let none = Lights::<R>::new::<Emitter<R>>([]).unwrap();
         assert!(none.is_empty());
         let s = none.at(Receiver { point: v([0.0; 3]), side: up(), on: None }).sample([R::lit(0.5); 3]);
