@@ -28,7 +28,7 @@ fn room(spot: f32) -> World {
     ];
     let walls: String = walls.map(wall).concat();
     let mut scene = read(&format!(
-        "LookAt 0 -0.9 1  0 1 0.7  0 0 1 Camera \"perspective\" \"float fov\" 70 WorldBegin
+        "LookAt 0 0.9 1  0 -1 0.7  0 0 1 Camera \"perspective\" \"float fov\" 70 WorldBegin
         LightSource \"infinite\" \"rgb L\" [1 1 1]
         Material \"diffuse\" \"rgb reflectance\" [.7 .7 .7] {walls}"
     ));
