@@ -1,8 +1,6 @@
 //! Renders the samples of a square of pixels.
 
-use super::corners::packets_for;
 use super::light_weights::{LightBlocks, LightWeights};
-use super::pixel_counts::SamplePlan;
 use super::pixel_statistics::{Statistics, StatisticsSum};
 use super::radiance::Radiance;
 use super::runs::{Run, TilePiece, next_packet, z_order};
@@ -55,14 +53,12 @@ impl<'a> TileRenderer<'a> {
         camera: Camera,
         exposure: Option<Exposure>,
         know: Option<Box<dyn Know + 'a>>,
+        is_counted: bool,
     ) -> Self {
         let Settings { sampler, seed, spp, sets, width, .. } = *settings;
         let scene = &world.scene;
         let sampled = scene.sampled(settings.technique, settings.choice);
         let (lights, chooser) = sampled.unwrap_or_else(|what| panic!("the choice of a light needs {what}"));
-        let few = chooser.few().filter(|lights| *lights > 1 && !settings.technique.finds_lights());
-        let counted =
-            few.map(packets_for).is_some_and(|pilot| SamplePlan::new(settings).with_pilot(pilot).pilot >= pilot);
         let sampled = Sampled::new(settings.technique, know.is_some() && scene.surfaces.has_rough());
         Self {
             scene,
@@ -74,7 +70,7 @@ impl<'a> TileRenderer<'a> {
             camera,
             lens: camera.has_lens() || exposure.is_some(),
             exposure,
-            source: NumberSource::new(sampler, seed, [spp, sets], width, counted),
+            source: NumberSource::new(sampler, seed, [spp, sets], width, is_counted),
             paths: Paths::new(scene, settings.depth),
             ledger: Ledger::all_open(know.is_some()),
             know,

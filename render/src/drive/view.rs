@@ -294,12 +294,16 @@ impl View<'_> {
         }
     }
 
-    fn plan(&self) -> SamplePlan {
-        let plan = SamplePlan::new(&self.settings);
+    /// The packets of a pilot after which samples can be counted per light, if there are so few lights.
+    fn asked_of_a_pilot(&self) -> Option<u32> {
         let Settings { technique, choice, .. } = self.settings;
         let sampled = self.world.scene.sampled(technique, choice).ok().filter(|_| !technique.finds_lights());
+        sampled.and_then(|(_, chooser)| chooser.few()).map(packets_for)
+    }
+
+    fn plan(&self) -> SamplePlan {
         // after a pilot that is too small for the lights, all samples choose among them at random
-        plan.with_pilot(sampled.and_then(|(_, chooser)| chooser.few()).map_or(0, packets_for))
+        SamplePlan::new(&self.settings).with_pilot(self.asked_of_a_pilot().unwrap_or(0))
     }
 
     fn pilot(&self, area: Area, progress: &(dyn Fn(u64) + Sync)) -> (Vec<Statistics>, RayCount) {
@@ -324,7 +328,10 @@ impl View<'_> {
     fn renderer(&self) -> TileRenderer<'_> {
         let Settings { width, height, .. } = self.settings;
         let know = self.world.know(&Settings { spp: self.worth, ..self.settings }, &self.camera);
-        TileRenderer::new(self.world, &self.settings, self.camera, self.world.exposure(width, height), know)
+        let is_counted = self.world.scene.lights.len() > 1
+            && self.asked_of_a_pilot().is_some_and(|packets| self.plan().pilot >= packets);
+        let exposure = self.world.exposure(width, height);
+        TileRenderer::new(self.world, &self.settings, self.camera, exposure, know, is_counted)
     }
 
     /// Calls `of` for each tile in parallel and assembles the rows it returns to an image.
