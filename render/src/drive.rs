@@ -38,7 +38,7 @@ mod tile;
 mod view;
 mod world;
 
-pub use auto::{Trial, Way};
+pub use auto::{AutoTrial, TechniqueChoice};
 pub use light_weights::APART;
 pub use pixel_counts::PixelCounts;
 pub use pixel_statistics::Statistics;

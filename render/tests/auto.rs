@@ -2,14 +2,14 @@
 
 use crate::kit::read;
 use etendue::light::EnvironmentMap;
-use etendue_render::drive::{Samples, Trial};
+use etendue_render::drive::{AutoTrial, Samples};
 use etendue_render::scene::{Environment, SkyRadiance};
 use etendue_render::{ChoiceBy, Sampler, Settings, Technique, World};
 use rayon::ThreadPoolBuilder;
 
 const LARGE: Settings = Settings { width: 256, height: 256, spp: 64, sampler: Sampler::Adaptive, ..Settings::DEFAULT };
 
-fn taken(world: &World, settings: &Settings) -> (Technique, ChoiceBy, Option<Trial>) {
+fn taken(world: &World, settings: &Settings) -> (Technique, ChoiceBy, Option<AutoTrial>) {
     let view = world.view(settings);
     (view.settings().technique, view.settings().choice, view.trial().copied())
 }

@@ -11,7 +11,7 @@ use crate::progress::bar;
 use clap::Args;
 use etendue_laboratory::cost::median;
 use etendue_laboratory::options::{named, out, pool, say, whole};
-use etendue_render::drive::Trial;
+use etendue_render::drive::AutoTrial;
 use etendue_render::drive::progressive::{self, Goal, Pass, Progress, Refinement};
 use etendue_render::film::Film;
 use etendue_render::film::claim::{Claim, why_unknown};
@@ -320,7 +320,7 @@ impl Session<'_> {
 }
 
 /// What `auto` has taken, over what, and by how much.
-fn taken(settings: &Settings, (trial, seconds): &(Trial, f64)) -> String {
+fn taken(settings: &Settings, (trial, seconds): &(AutoTrial, f64)) -> String {
     let name = |technique: Technique, choice: ChoiceBy| match choice {
         ChoiceBy::Auto => technique.name().to_owned(),
         _ => format!("{} with the choice {}", technique.name(), choice.name()),

@@ -17,15 +17,15 @@ use crate::technique::Technique;
 use libm::pow;
 
 /// How lights are sampled and chosen.
-pub type Way = (Technique, ChoiceBy);
+pub type TechniqueChoice = (Technique, ChoiceBy);
 
 /// What a trial has found.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Trial {
+pub struct AutoTrial {
     /// Whether the rule was kept.
     pub is_rule: bool,
     /// The best of the ways that were not taken.
-    pub over: Way,
+    pub over: TechniqueChoice,
     /// How many times as efficient as that is what was taken: the inverse ratio of variance × cost.
     pub times: f64,
     /// Number of tiles.
@@ -104,7 +104,12 @@ impl Plan {
 
 /// The best of these ways by what each made of the tiles, way by way, and the trial that tells; the first unless another is certainly better. If
 /// pixels share samples, these go where variance is.
-pub(super) fn best(ways: &[Way], plan: &Plan, tried: &[Tried], is_shared: bool) -> (Way, Option<Trial>) {
+pub(super) fn best(
+    ways: &[TechniqueChoice],
+    plan: &Plan,
+    tried: &[Tried],
+    is_shared: bool,
+) -> (TechniqueChoice, Option<AutoTrial>) {
     let by_way: Vec<&[Tried]> = tried.chunks(plan.tiles.len()).collect();
     let all = |way: usize, without: Option<usize>| {
         let of = |way: usize| by_way[way].iter().enumerate().filter(move |(i, _)| Some(*i) != without).map(|(_, t)| t);
@@ -118,7 +123,7 @@ pub(super) fn best(ways: &[Way], plan: &Plan, tried: &[Tried], is_shared: bool) 
     let next = (0..ways.len()).filter(|&way| way != best).min_by(|a, b| scores[*a].total_cmp(&scores[*b]));
     let Some(next) = next.filter(|&next| scores[best] > 0.0 && scores[next] > 0.0) else { return (ways[0], None) };
     let (times, tiles) = (scores[next] / scores[best], plan.tiles.len());
-    (ways[best], Some(Trial { is_rule: best == 0, over: ways[next], times, tiles, part: plan.part }))
+    (ways[best], Some(AutoTrial { is_rule: best == 0, over: ways[next], times, tiles, part: plan.part }))
 }
 
 impl Tried {
@@ -174,7 +179,7 @@ const PROOF: f64 = 3000.0;
 const FORM: f64 = 250.0;
 
 /// The same for a sample of a light, without its ray; `is_few` says whether samples may be allocated to a few lights.
-fn of_sample((technique, choice): Way, is_few: bool) -> f64 {
+fn of_sample((technique, choice): TechniqueChoice, is_few: bool) -> f64 {
     let chosen = match choice {
         ChoiceBy::Auto if is_few => 44.0,
         ChoiceBy::Spatial => 27.0,
@@ -190,7 +195,7 @@ fn of_sample((technique, choice): Way, is_few: bool) -> f64 {
 }
 
 /// The cost of what was counted, with `times` as many samples but the same proofs.
-pub(super) fn cost(way: Way, is_few: bool, count: &RayCount, times: f64) -> f64 {
+pub(super) fn cost(way: TechniqueChoice, is_few: bool, count: &RayCount, times: f64) -> f64 {
     let RayCount { camera, mirror, shadow, corner, proofs, forms } = count;
     let [camera, mirror, shadow, corner, proofs, forms] =
         [camera, mirror, shadow, corner, proofs, forms].map(|n| *n as f64);

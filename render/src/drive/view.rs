@@ -1,6 +1,6 @@
 //! An image of a scene through a camera: its technique, its samples, and what is known of its lights.
 
-use super::auto::{Plan, SEEDS, Trial, Tried, Way, best, cost};
+use super::auto::{AutoTrial, Plan, SEEDS, TechniqueChoice, Tried, best, cost};
 use super::corners::packets_for;
 use super::pixel_counts::{PixelCounts, SamplePlan};
 use super::pixel_statistics::Statistics;
@@ -58,7 +58,7 @@ pub struct View<'a> {
     settings: Settings,
     /// Samples per pixel of the image that decide what is worth knowing: a trial takes fewer.
     worth: u32,
-    trial: Option<Trial>,
+    trial: Option<AutoTrial>,
     stop: Option<&'a AtomicBool>,
 }
 
@@ -106,19 +106,19 @@ impl<'a> View<'a> {
 
 impl View<'_> {
     /// What `auto` takes, and the trial that found it; without one, the rule.
-    fn decide(&self) -> (Way, Option<Trial>) {
+    fn decide(&self) -> (TechniqueChoice, Option<AutoTrial>) {
         let ways = self.ways();
         let Some(plan) = (if ways.len() > 1 { Plan::new(&self.settings, ways.len()) } else { None }) else {
             return (ways[0], None);
         };
         let pairs = ways.iter().flat_map(|&way| plan.tiles.iter().map(move |&tile| (way, tile)));
-        let pairs: Vec<(Way, Area)> = pairs.collect();
+        let pairs: Vec<(TechniqueChoice, Area)> = pairs.collect();
         let tried = pairs.into_par_iter().map(|(way, tile)| self.try_tile(way, tile, plan.spp));
         best(&ways, &plan, &tried.collect::<Vec<_>>(), self.settings.sampler == Sampler::Adaptive)
     }
 
     /// Renders a tile twice in one way, with so many samples per pixel.
-    fn try_tile(&self, way: Way, tile: Area, spp: u32) -> Tried {
+    fn try_tile(&self, way: TechniqueChoice, tile: Area, spp: u32) -> Tried {
         let render = |seed: u64| {
             let view = self.by(way, Settings { spp, seed, ..self.settings });
             let (content, count) = view.render(tile, Samples::All, &|_| ());
@@ -131,7 +131,7 @@ impl View<'_> {
     }
 
     /// The same by another way, with other settings of which the image is worth knowing the same.
-    fn by(&self, (technique, choice): Way, settings: Settings) -> Self {
+    fn by(&self, (technique, choice): TechniqueChoice, settings: Settings) -> Self {
         Self { settings: Settings { technique, choice, ..settings }, ..*self }
     }
 
@@ -149,7 +149,7 @@ impl View<'_> {
 
     /// The trial that chose them, if there was one.
     #[must_use]
-    pub const fn trial(&self) -> Option<&Trial> {
+    pub const fn trial(&self) -> Option<&AutoTrial> {
         self.trial.as_ref()
     }
 
@@ -160,7 +160,7 @@ impl View<'_> {
     /// Through a lens most of the error is that of the image's edges: closed forms then take time that they do not save. (By `etendue render
     /// SCENE --spp 64 --size 256x256 --threads 1`, `analytic` takes twice as long on `defocus`.) Of lights with pictures, parallelograms have
     /// one.
-    fn ways(&self) -> Vec<Way> {
+    fn ways(&self) -> Vec<TechniqueChoice> {
         let (scene, choice) = (&self.world.scene, self.settings.choice);
         let is_rough = scene.surfaces.has_rough();
         let sampled = if is_rough { Technique::MisLobe } else { Technique::SolidAngle };

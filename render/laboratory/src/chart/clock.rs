@@ -5,7 +5,7 @@
 pub enum Clock {
     /// From the beginning to the end of an image.
     Wall,
-    /// Of all threads together, because they ran for this part of the time only.
+    /// The processor time of all threads together. They ran for only this part of the time on the wall, from 0 to 0.9.
     Processors(f64),
 }
 
