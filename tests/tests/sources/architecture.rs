@@ -438,3 +438,21 @@ fn documents_are_short() {
     println!("README.md has {readme} words, {own:?}, all others {others}");
     assert!((300..=1000).contains(&readme) && own.iter().all(|(_, words, most)| words <= most) && others <= 9200);
 }
+
+/// The names in a folder of `fuzz`, without endings.
+fn fuzz_names(folder: &str) -> BTreeSet<String> {
+    let all = fs::read_dir(root().join("fuzz").join(folder)).unwrap();
+    all.map(|entry| entry.unwrap().file_name().into_string().unwrap().split('.').next().unwrap().to_owned()).collect()
+}
+
+#[test]
+fn every_fuzz_target_has_seeds_and_a_group_and_nothing_else_has() {
+    let targets = fuzz_names("fuzz_targets");
+    assert_eq!(fuzz_names("seeds"), targets);
+    let corpora = fuzz_names("corpora");
+    assert!(corpora.is_subset(&targets), "no targets: {:?}", corpora.difference(&targets));
+    let campaign = fs::read_to_string(root().join("fuzz/campaign")).unwrap();
+    let groups = campaign.split_once("groups=(\n").unwrap().1.split_once("\n)").unwrap().0;
+    let grouped = groups.lines().flat_map(|line| line.trim().trim_matches('"').split_once(": ").unwrap().1.split(' '));
+    assert_eq!(grouped.map(str::to_owned).collect::<BTreeSet<_>>(), targets);
+}
