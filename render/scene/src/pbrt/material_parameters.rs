@@ -75,7 +75,7 @@ pub(super) fn read(
                 return Err(params.error(format!("\"scale\": must be finite and at least 0, not {}", shown(scale))));
             }
             let albedo = context.color(&["reflectance"], 0.25, params, out)?.times(Texture::number(scale as f32));
-            albedo.constant().map_or_else(|| out.vary(Varying::Diffuse(albedo.clone())), Material::Diffuse)
+            albedo.constant().map_or_else(|| out.materials.vary(Varying::Diffuse(albedo.clone())), Material::Diffuse)
         }
         "subsurface" | "kdsubsurface" => {
             stand_in(out, params, "a coat over a diffuse surface");
@@ -93,7 +93,7 @@ pub(super) fn read(
             return Err(params.error(format!("material type {kind:?} is not supported, only {kinds}{near}")));
         }
     };
-    Ok(Finish::Of(normals.map_or(read, |normals| out.relief(read, normals))))
+    Ok(Finish::Of(normals.map_or(read, |normals| out.materials.relief(read, normals))))
 }
 
 /// Reflectance at normal incidence on a smooth dielectric.
@@ -136,7 +136,7 @@ impl Context<'_> {
     ) -> Result<Material, Message> {
         let albedo = self.color(names, default, params, out)?;
         // a constant may exceed 1, which a texture may not
-        Ok(albedo.constant().map_or_else(|| out.vary(Varying::Diffuse(albedo.clone())), Material::Diffuse))
+        Ok(albedo.constant().map_or_else(|| out.materials.vary(Varying::Diffuse(albedo.clone())), Material::Diffuse))
     }
     /// A colour that is the same everywhere, or the mean of one that is not.
     fn constant(&self, name: &str, default: f32, params: &mut Params, out: &mut Builder) -> Result<[f32; 3], Message> {
@@ -177,7 +177,7 @@ impl Context<'_> {
         let diffuse = self.color(names, 0.5, params, out)?;
         let eta = self.coat_eta(&["eta"], params, out)?;
         let roughness = self.coat_roughness(0.0, params, out)?;
-        Ok(out.vary(Varying::Layered { diffuse, eta, roughness }))
+        Ok(out.materials.vary(Varying::Layered { diffuse, eta, roughness }))
     }
     /// A coat over a metal. What varies becomes its mean.
     fn coated_conductor(&self, params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
@@ -195,7 +195,7 @@ impl Context<'_> {
             Material::Conductor { eta, k, roughness } => (eta, k, roughness),
             other => {
                 varies = true;
-                let mean = out.mean(other);
+                let mean = out.materials.mean(other);
                 let specular = if let Material::Glossy { specular, .. } = mean { specular } else { [0.5; 3] };
                 let k = specular.map(|r| index_of_reflectance(f64::from(r)) as f32);
                 ([1.0; 3], k, mean.roughness().unwrap_or(0.0.into()))
@@ -249,7 +249,7 @@ impl Context<'_> {
         out: &mut Builder,
     ) -> Result<Material, Message> {
         let roughness = self.coat_roughness(roughness, params, out)?;
-        Ok(out.vary(Varying::Glossy { diffuse, specular, grazing, roughness, turn: 0.0, greatest: false }))
+        Ok(out.materials.vary(Varying::Glossy { diffuse, specular, grazing, roughness, turn: 0.0, greatest: false }))
     }
     /// The roughness of a coat: a smooth one is not quite smooth.
     fn coat_roughness(&self, default: f32, params: &mut Params, out: &mut Builder) -> Result<[Texture; 2], Message> {
@@ -282,7 +282,7 @@ impl Context<'_> {
             Ok::<_, Message>(found.unwrap_or(Texture::number(default)))
         };
         let (metallic, roughness) = (number("metallic", 0.0, params)?, number("roughness", 0.5, params)?);
-        Ok(out.vary(Varying::Metallic { base, metallic, roughness }))
+        Ok(out.materials.vary(Varying::Metallic { base, metallic, roughness }))
     }
     fn dielectric(&self, params: &mut Params, out: &mut Builder) -> Result<Material, Message> {
         let eta = self.eta(&["eta", "index"], params, out)?;
@@ -378,7 +378,7 @@ impl Context<'_> {
     /// A rough metal with this reflectance at normal incidence.
     fn metal(&self, specular: Texture, roughness: [Texture; 2], out: &mut Builder) -> Material {
         let [diffuse, grazing] = [0.0, 1.0].map(Texture::number);
-        out.vary(Varying::Glossy { diffuse, specular, grazing, roughness, turn: 0.0, greatest: false })
+        out.materials.vary(Varying::Glossy { diffuse, specular, grazing, roughness, turn: 0.0, greatest: false })
     }
 }
 

@@ -86,10 +86,10 @@ impl ShapeState {
             flip: self.reverse != (det < 0.0),
             material: match mask {
                 Some(mask) if emission.is_none() => {
-                    let whole = out.material(material);
-                    out.masked(whole, mask)
+                    let whole = out.materials.material(material);
+                    out.materials.masked(whole, mask)
                 }
-                _ => out.material(material),
+                _ => out.materials.material(material),
             },
             emission,
             picture,

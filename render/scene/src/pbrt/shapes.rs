@@ -66,7 +66,7 @@ fn note_left_out(out: &mut Builder, params: &Params) {
 /// The factor by which its transform enlarges a shape that is kept as it is: unless it is stretched, textured or in an object.
 fn kept(out: &Builder, surface: &ShapeAttributes) -> Option<f64> {
     // what emits reflects by the means of its material
-    let varies = surface.emission.is_none() && out.varies(surface.material);
+    let varies = surface.emission.is_none() && out.materials.varies(surface.material);
     surface.ctm.similarity().filter(|_| !varies && !out.is_object())
 }
 
