@@ -7,4 +7,4 @@ mod lobes;
 mod properties;
 mod scenes;
 mod solids;
-mod truth;
+pub(crate) mod truth;

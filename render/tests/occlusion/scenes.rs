@@ -1,5 +1,6 @@
 //! Scenes of polygons and spheres, by regimes.
 
+use super::solids::{SOLID_KINDS, scene_with_solids};
 use super::truth::{polygon, sphere};
 use etendue_judge::generators::Random;
 use etendue_judge::occlusion::Scene;
@@ -45,7 +46,7 @@ pub(crate) fn corners(random: &mut Random, middle: V3, [s, t]: [V3; 2], [a, b]: 
     (0..n).map(at).collect()
 }
 
-pub(crate) fn scene(random: &mut Random, kind: Difficulty, round: Round) -> Scene {
+fn scene(random: &mut Random, kind: Difficulty, round: Round) -> Scene {
     let scene = unplaced(random, kind, round);
     Placement::new(random).scene(scene)
 }
@@ -305,6 +306,12 @@ fn unplaced(random: &mut Random, kind: Difficulty, round: Round) -> Scene {
         }
     }
     occluders.truncate(16);
+    let (points, normals) = surface(random, normal, spread, kind == Difficulty::TouchSurface);
+    Scene { light, occluders, points, normals }
+}
+
+/// Points about the origin on a surface, and the normals there, which are nearly the same unless all are.
+pub(crate) fn surface(random: &mut Random, normal: V3, spread: f64, is_flat: bool) -> ([[f32; 3]; 8], [[f32; 3]; 8]) {
     let points = core::array::from_fn(|i| {
         let off = random.direction();
         // on the surface, so that what stands on it touches the horizon
@@ -312,8 +319,32 @@ fn unplaced(random: &mut Random, kind: Difficulty, round: Round) -> Scene {
         narrow(off.map(|x| if i == 0 { 0.0 } else { spread * x }))
     });
     let normals = core::array::from_fn(|i| {
-        let off = if kind == Difficulty::TouchSurface || i < 2 { 0.0 } else { 0.1 };
+        let off = if is_flat || i < 2 { 0.0 } else { 0.1 };
         narrow(unit(along(normal, random.direction(), off)))
     });
-    Scene { light, occluders, points, normals }
+    (points, normals)
+}
+
+/// A regime: its name, whether it has polyhedra, and its scenes.
+pub(crate) struct Regime {
+    pub(crate) name: String,
+    pub(crate) has_polyhedra: bool,
+    pub(crate) scene: Box<dyn Fn(&mut Random) -> Scene>,
+}
+
+pub(crate) fn regimes() -> Vec<Regime> {
+    let rounds = [Round::None, Round::Light, Round::Occluders];
+    let flat = rounds.into_iter().flat_map(|round| KINDS.iter().map(move |&kind| (kind, round)));
+    let flat = flat.map(|(kind, round)| Regime {
+        name: format!("{kind:?}, {round:?}"),
+        has_polyhedra: false,
+        scene: Box::new(move |random| scene(random, kind, round)),
+    });
+    let solid = [false, true].into_iter().flat_map(|round| SOLID_KINDS.iter().map(move |&kind| (kind, round)));
+    let solid = solid.map(|(kind, round)| Regime {
+        name: format!("{kind:?}, {}", if round { "sphere" } else { "polygon" }),
+        has_polyhedra: true,
+        scene: Box::new(move |random| scene_with_solids(random, kind, round)),
+    });
+    flat.chain(solid).collect()
 }
