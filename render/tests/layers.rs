@@ -3,6 +3,7 @@
 
 use crate::kit::world;
 use crate::random::Random;
+use etendue_oracle::direct::fresnel;
 use etendue_oracle::{V3, along, cross, dot, unit};
 use etendue_render::film::compare::LIMIT;
 use etendue_render::{Sampler, Settings, Technique};
@@ -40,18 +41,6 @@ const LIGHTS: [Option<[f64; 3]>; 4] =
 fn at([angle, turn]: [f64; 2]) -> V3 {
     let [angle, turn] = [angle, turn].map(f64::to_radians);
     [angle.sin() * turn.cos(), angle.sin() * turn.sin(), angle.cos()]
-}
-
-/// Reflectance of a metal or dielectric of index η + ik relative to the medium (Born and Wolf, 14.2), for unpolarised light.
-fn fresnel(cos: f64, [eta, k]: [f64; 2]) -> f64 {
-    let sine = 1.0 - cos * cos;
-    let t0 = eta * eta - k * k - sine;
-    let sum = (t0 * t0 + 4.0 * eta * eta * k * k).sqrt();
-    let a = (0.5 * (sum + t0)).max(0.0).sqrt();
-    let across = (sum + cos * cos - 2.0 * a * cos) / (sum + cos * cos + 2.0 * a * cos);
-    let along = across * (sum * cos * cos + sine * sine - 2.0 * a * cos * sine)
-        / (sum * cos * cos + sine * sine + 2.0 * a * cos * sine);
-    0.5 * (across + along)
 }
 
 fn lambda(w: V3, [a, b]: [f64; 2]) -> f64 {
@@ -99,7 +88,7 @@ fn follow(layers: &Layers, random: &mut Random) -> Option<(V3, V3)> {
         // one of both by Fresnel's formula
         let (chance, mut passes) = (random.unit(), false);
         let (o, weight) = scattered(w, [above, across], random, |m| {
-            passes = chance >= fresnel(dot(w, m), [index, 0.0]);
+            passes = chance >= fresnel(dot(w, m), index, 0.0);
             if passes { refracted(w, m, index) } else { reflected(w, m) }
         });
         if (o[2] * w[2] < 0.0) != passes {
@@ -123,7 +112,7 @@ fn follow(layers: &Layers, random: &mut Random) -> Option<(V3, V3)> {
                     cos = dot(arrives, m);
                     reflected(arrives, m)
                 });
-                part = [0, 1, 2].map(|k| part[k] * weight * fresnel(cos, METAL[k].map(|x| x / eta)));
+                part = [0, 1, 2].map(|k| part[k] * weight * fresnel(cos, METAL[k][0] / eta, METAL[k][1] / eta));
                 o
             }
         };
