@@ -3,6 +3,7 @@
 use super::area_lights::{self, Shown};
 use super::blocks::{Blocks, State};
 use super::film_and_camera;
+use super::given::Given;
 use super::includes::Includes;
 pub(super) use super::includes::Origin;
 use super::inputs::Files;
@@ -268,10 +269,9 @@ impl Reader<'_> {
         let params = Params::read(lexer, format!("Texture {:?}", shortened(&name)), place)?;
         let mut params = params.of("Texture", &kind);
         self.with_defaults("texture", &mut params);
-        let Self { textures, out, .. } = self;
-        let files = self.files.at(dir);
-        textures.define(&name, &value, &kind, &mut params, &files, &mut out.notes)?;
-        params.finish(&mut out.notes);
+        let mut given = Given { params: &mut params, files: self.files.at(dir), notes: &mut self.out.notes };
+        self.textures.define(&name, &value, &kind, &mut given)?;
+        params.finish(&mut self.out.notes);
         Ok(())
     }
 
@@ -313,8 +313,8 @@ impl Reader<'_> {
             "AreaLightSource" => {
                 self.with_defaults("light", &mut params);
                 let Self { out, state, files, shown, .. } = self;
-                let files = files.at(dir);
-                state.area = area_lights::read(kind, &mut params, &files, shown, &mut out.notes)?;
+                let mut given = Given { params: &mut params, files: files.at(dir), notes: &mut out.notes };
+                state.area = area_lights::read(kind, &mut given, shown)?;
             }
             "LightSource" => {
                 self.with_defaults("light", &mut params);
@@ -337,9 +337,10 @@ impl Reader<'_> {
     }
 
     fn material(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<Finish, Message> {
-        let files = self.files.at(dir);
-        let context = Context { textures: &self.textures, named: &|name| self.named.get(name), files };
-        material_parameters::read(kind, params, &context, &mut self.mixtures, &mut self.out)
+        let Self { out, named, textures, files, mixtures, .. } = self;
+        let given = Given { params, files: files.at(dir), notes: &mut out.notes };
+        let context = Context { textures, named: &|name| named.get(name), materials: &mut out.materials, given };
+        material_parameters::read(kind, context, mixtures)
     }
 
     fn warn(&mut self, place: &Place, text: String) {
@@ -371,8 +372,8 @@ impl Reader<'_> {
 
     fn light(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<(), Message> {
         let Self { out, state, sources, files, .. } = self;
-        let files = files.at(dir);
-        sources.read(kind, params, &state.ctm, &files, &mut out.notes)
+        let mut given = Given { params, files: files.at(dir), notes: &mut out.notes };
+        sources.read(kind, &mut given, &state.ctm)
     }
 
     fn shape(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<(), Message> {
@@ -389,7 +390,7 @@ impl Reader<'_> {
         for (index, (material, share)) in parts.into_iter().enumerate() {
             let mut again = (index < last).then(|| params.clone());
             let own = again.as_mut().unwrap_or(params);
-            let given = ShapeState {
+            let shape = ShapeState {
                 ctm: state.ctm,
                 reverse: state.reverse,
                 material,
@@ -398,7 +399,7 @@ impl Reader<'_> {
                 is_object: blocks.is_object(),
             };
             out.begin(own.place.message(""));
-            if let Some(surface) = given.attributes(kind, own, textures, named, out)? {
+            if let Some(surface) = shape.attributes(kind, own, files, textures, named, out)? {
                 shapes::read(kind, out, &surface, own, &files)?;
             }
         }

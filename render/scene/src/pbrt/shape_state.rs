@@ -1,6 +1,8 @@
 //! What the graphics state of a scene file makes of a shape.
 
 use super::area_lights::Area;
+use super::given::Given;
+use super::inputs::Files;
 use super::material_parameters::Finish;
 use super::named_materials::NamedMaterials;
 use super::params::Params;
@@ -31,6 +33,7 @@ impl ShapeState {
         self,
         kind: &str,
         params: &mut Params,
+        files: Files<'_>,
         textures: &Textures,
         named: &mut NamedMaterials,
         out: &mut Builder,
@@ -39,7 +42,7 @@ impl ShapeState {
         if det == 0.0 || !det.is_finite() {
             return Err(params.error("its transform is singular"));
         }
-        let opacity = textures.number("alpha", params, &mut out.notes)?;
+        let opacity = textures.number("alpha", &mut Given { params, files, notes: &mut out.notes })?;
         let is_absent = |opacity: &Texture| opacity.constant().is_some_and(|[x, ..]| x <= 0.0);
         if opacity.as_ref().is_some_and(is_absent) && self.area.emission.is_none() {
             params.ignore_all();
