@@ -9,7 +9,6 @@ use etendue_render::film::compare::LIMIT;
 use etendue_render::{Sampler, Settings, Technique};
 use etendue_scene::list::PBRT;
 use rayon::prelude::*;
-use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 /// What is below a coat.
@@ -245,35 +244,4 @@ fn coats_that_differ_by_direction_pass_what_their_mean_does() {
     let listed = PBRT.entry("Material", "coateddiffuse").unwrap().parameter("uroughness").unwrap().note;
     println!("at most {worst}, listed as {listed:?}");
     assert!(worst < 0.02 && listed.contains("2 % off"), "{worst}: {listed}");
-}
-
-/// Prints how far coats are from walks over a grid: `cargo test -p etendue-render-tests -- the_grid_of_coats --ignored --nocapture`.
-#[test]
-#[ignore = "prints"]
-fn the_grid_of_coats() {
-    let mut worst = BTreeMap::new();
-    for (eta, view) in [1.1, 1.5, 2.0].into_iter().flat_map(|eta| [10.0, 60.0, 80.0].map(|view| (eta, view))) {
-        for above in [0.0, 0.1, 0.3, 0.6, 1.0] {
-            let metals = [0.0, 0.1, 0.3, 0.6, 1.0].map(Base::Metal);
-            for base in metals.into_iter().chain([0.2, 0.5, 1.0].map(Base::Diffuse)) {
-                // both smooth are mirrors
-                if above == 0.0 && matches!(base, Base::Metal(0.0)) {
-                    continue;
-                }
-                let kind = if matches!(base, Base::Metal(_)) { "coatedconductor" } else { "coateddiffuse" };
-                let coat = if above == 0.0 { "smooth" } else { "rough" };
-                let layers = Layers { base, above, across: above, eta, view };
-                let all = compare(&layers, 1 << 21, 1 << 15, &[Technique::Auto]);
-                for ((lines, most), light) in all.into_iter().zip(["sky", "lamp", "lamp", "lamp"]) {
-                    lines.iter().for_each(|line| println!("{line}"));
-                    let own: &mut (usize, f64) = worst.entry((kind, coat, light, view as u32)).or_default();
-                    *own = (own.0 + usize::from(most > 0.01), own.1.max(most));
-                }
-            }
-        }
-    }
-    println!("layers, coat, light, view: how many differ by over 1 % beyond {LIMIT} standard errors, and the most");
-    for ((kind, coat, light, view), (count, most)) in worst {
-        println!("{kind}, {coat}, {light}, {view}°: {count}, {:.2} %", 100.0 * most);
-    }
 }

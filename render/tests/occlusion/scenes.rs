@@ -2,6 +2,7 @@
 
 use super::solids::{SOLID_KINDS, scene_with_solids};
 use super::truth::{polygon, sphere};
+use crate::attack::build::{cube, placed};
 use etendue_judge::generators::Random;
 use etendue_judge::occlusion::Scene;
 use etendue_oracle::{V3, along, basis, cross, dot, narrow, sub, unit, wide};
@@ -241,23 +242,14 @@ fn unplaced(random: &mut Random, kind: Difficulty, round: Round) -> Scene {
                 }
                 Difficulty::Fan => continue,
                 Difficulty::Box if i == 0 => {
-                    let (x, y) = (plane[0], plane[1]);
-                    let z = cross(x, y);
-                    let extent = [own, own * random.range(0.2, 1.0), own * random.range(0.2, 1.0)];
-                    for axis in 0..3 {
-                        for side in [-1.0, 1.0] {
-                            let axes = [x, y, z];
-                            let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-                            let face = along(middle, axes[axis], side * extent[axis]);
-                            let corner =
-                                |p: f64, q: f64| along(along(face, axes[u], p * extent[u]), axes[v], q * extent[v]);
-                            let quad = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
-                            if random.unit() < 0.3 {
-                                occluders.push(polygon(&quad[..3]));
-                                occluders.push(polygon(&[quad[2], quad[3], quad[0]]));
-                            } else {
-                                occluders.push(polygon(&quad));
-                            }
+                    let axes = [plane[0], plane[1], cross(plane[0], plane[1])];
+                    let half = [own, own * random.range(0.2, 1.0), own * random.range(0.2, 1.0)];
+                    for quad in placed(&cube(), half, &axes, middle) {
+                        if random.unit() < 0.3 {
+                            occluders.push(polygon(&quad[..3]));
+                            occluders.push(polygon(&[quad[2], quad[3], quad[0]]));
+                        } else {
+                            occluders.push(polygon(&quad));
                         }
                     }
                     continue;

@@ -127,10 +127,6 @@ fn attributes() -> Vec<Row> {
         ("diffusetransmission without a scale", under_sky(leaf), 0.5),
         ("diffusetransmission without parameters", under_sky("Material \"diffusetransmission\""), 0.25),
         ("diffusetransmission of a texture, scaled", under_sky(&format!("{texture} Material \"diffusetransmission\" \"texture reflectance\" \"t\" \"float scale\" .5")), 0.3),
-        ("a material that nobody defines", under_sky("NamedMaterial \"nobody\""), 0.5),
-        ("a texture that nobody defines", under_sky("Material \"diffuse\" \"texture reflectance\" \"nobody\""), 0.5),
-        ("a system that nobody defines", under_sky("CoordSysTransform \"nobody\""), 0.5),
-        ("an object that nobody defines", under_sky("ObjectInstance \"nobody\""), 0.5),
     ]
     .map(|(name, text, right)| Row::new(name, text, grey(right)).by(SOME))
     .into()
