@@ -1,6 +1,6 @@
 //! Greatest errors.
 
-use super::scenes::{Regime, regimes};
+use super::regimes::{Regime, regimes};
 use super::solids::{SOLID_KINDS, scene_with_solids};
 use super::truth::Truth;
 use etendue::{Real, f32x8};

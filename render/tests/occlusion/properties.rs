@@ -1,7 +1,7 @@
 //! Properties of visible parts, and special cases.
 
 use super::accuracy::BOUND;
-use super::scenes::{Regime, regimes};
+use super::regimes::{Regime, regimes};
 use super::truth::{Truth, polygon, sphere};
 use etendue::{Real, f32x8};
 use etendue_judge::generators::Random;

@@ -1,6 +1,5 @@
 //! Scenes of polygons and spheres, by regimes.
 
-use super::solids::{SOLID_KINDS, scene_with_solids};
 use super::truth::{polygon, sphere};
 use crate::attack::build::{cube, placed};
 use etendue_judge::generators::Random;
@@ -47,7 +46,7 @@ pub(crate) fn corners(random: &mut Random, middle: V3, [s, t]: [V3; 2], [a, b]: 
     (0..n).map(at).collect()
 }
 
-fn scene(random: &mut Random, kind: Difficulty, round: Round) -> Scene {
+pub(super) fn scene(random: &mut Random, kind: Difficulty, round: Round) -> Scene {
     let scene = unplaced(random, kind, round);
     Placement::new(random).scene(scene)
 }
@@ -315,28 +314,4 @@ pub(crate) fn surface(random: &mut Random, normal: V3, spread: f64, is_flat: boo
         narrow(unit(along(normal, random.direction(), off)))
     });
     (points, normals)
-}
-
-/// A regime: its name, whether it has polyhedra, and its scenes.
-pub(crate) struct Regime {
-    pub(crate) name: String,
-    pub(crate) has_polyhedra: bool,
-    pub(crate) scene: Box<dyn Fn(&mut Random) -> Scene>,
-}
-
-pub(crate) fn regimes() -> Vec<Regime> {
-    let rounds = [Round::None, Round::Light, Round::Occluders];
-    let flat = rounds.into_iter().flat_map(|round| KINDS.iter().map(move |&kind| (kind, round)));
-    let flat = flat.map(|(kind, round)| Regime {
-        name: format!("{kind:?}, {round:?}"),
-        has_polyhedra: false,
-        scene: Box::new(move |random| scene(random, kind, round)),
-    });
-    let solid = [false, true].into_iter().flat_map(|round| SOLID_KINDS.iter().map(move |&kind| (kind, round)));
-    let solid = solid.map(|(kind, round)| Regime {
-        name: format!("{kind:?}, {}", if round { "sphere" } else { "polygon" }),
-        has_polyhedra: true,
-        scene: Box::new(move |random| scene_with_solids(random, kind, round)),
-    });
-    flat.chain(solid).collect()
 }
