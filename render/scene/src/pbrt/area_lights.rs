@@ -2,7 +2,7 @@
 
 use super::given::Given;
 use super::lights::{power, scale};
-use super::params::{Params, shown};
+use super::params::Params;
 use super::profiles::{self, Profile};
 use crate::distribution::Distribution;
 use crate::radiance::{brightness, luminance, radiances, rounded};
@@ -38,9 +38,7 @@ pub(super) type Shown = HashMap<(Arc<str>, String), Arc<Texels>>;
 
 /// Reads an `AreaLightSource`.
 pub(super) fn read(kind: &str, given: &mut Given<'_>, known: &mut Shown) -> Result<Area, Message> {
-    if kind != "diffuse" && kind != "area" {
-        return Err(given.error("not supported, only \"diffuse\""));
-    }
+    given.require(kind == "diffuse" || kind == "area", || "not supported, only \"diffuse\"")?;
     let texels = match given.text("filename")? {
         Some(name) => Some(shown_texels(&name, given, known)?),
         None => None,
@@ -62,9 +60,10 @@ pub(super) fn read(kind: &str, given: &mut Given<'_>, known: &mut Shown) -> Resu
     let greatest = texels.as_ref().map_or([1.0; 3], |texels| texels.greatest().map(f64::from));
     let brightest: [f64; 3] = std::array::from_fn(|k| radiance[k] * greatest[k]);
     let spread = spread(given)?;
-    if spread.is_some() && profile.is_some() {
-        return Err(given.error("\"spread\" and \"profile\": a light has one or the other"));
-    }
+    given.require(
+        spread.is_none() || profile.is_none(),
+        || "\"spread\" and \"profile\": a light has one or the other",
+    )?;
     // the greatest factor of the spread is on the axis, and that of a profile at most at its least cosine
     let gain = match &profile {
         Some(distribution) => distribution.opening.factor(X8::lit(0.0), X8::lit(1.0)).lane_f64(0),
@@ -124,11 +123,7 @@ fn shown_texels(name: &str, given: &mut Given<'_>, known: &mut Shown) -> Result<
 
 /// The spread of an area light: the full angle in degrees, as in Cycles. pbrt has none.
 fn spread(params: &mut Params) -> Result<Option<Spread<f32>>, Message> {
-    match params.float("spread")? {
-        None => Ok(None),
-        Some(angle) if !(0.1..=180.0).contains(&angle) => {
-            Err(params.error(format!("\"spread\": must be from 0.1 to 180 degrees, not {}", shown(angle))))
-        }
-        Some(angle) => Ok((angle < 180.0).then(|| Spread::new(angle.to_radians()))),
-    }
+    let Some(angle) = params.float("spread")? else { return Ok(None) };
+    params.bound("spread", angle, (0.1..=180.0).contains(&angle), "from 0.1 to 180 degrees")?;
+    Ok((angle < 180.0).then(|| Spread::new(angle.to_radians())))
 }

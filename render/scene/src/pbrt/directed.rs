@@ -1,10 +1,9 @@
 //! Reads point lights whose intensity differs by direction: `LightSource "goniometric"`, and `"spot"` with a `profile`.
 
 use super::given::Given;
-use super::lights::{power, scale, turned};
+use super::lights::{position, power, scale, turned};
 use super::profiles::{self, Profile};
 use crate::radiance::{brightness, luminance, rounded};
-use crate::transform::Transform;
 use etendue::SpotLight;
 use etendue_render::scene::intensity::Intensity;
 use etendue_render::scene::{Cone, DeltaLight, Message};
@@ -13,11 +12,7 @@ use etendue_render::scene::{Cone, DeltaLight, Message};
 ///
 /// It takes pbrt's square images, older ones of longitude and latitude, and IES files, which pbrt does not read: their
 /// candela values are the intensity, times `I` and `scale`.
-pub(super) fn read(
-    given: &mut Given<'_>,
-    ctm: &Transform,
-    table: u32,
-) -> Result<Option<(DeltaLight, Intensity)>, Message> {
+pub(super) fn read(given: &mut Given<'_>, table: u32) -> Result<Option<(DeltaLight, Intensity)>, Message> {
     let name = match given.text("filename")? {
         None => given.text("mapname")?,
         name => name,
@@ -27,11 +22,8 @@ pub(super) fn read(
     let scale = scale(given)?;
     let power = power(given)?;
     let profile = profiles::read(&name, given)?;
-    let to_light = turned(given, ctm)?;
-    let position = ctm.point([0.0; 3]).map(|x| x as f32);
-    if !position.iter().all(|x| x.is_finite()) {
-        return Err(given.error(format!("its position {:?} is not finite in f32", ctm.point([0.0; 3]))));
-    }
+    let to_light = turned(given)?;
+    let position = position(given, given.ctm.point([0.0; 3]))?;
     let Some(Profile { intensity: shape, greatest, aim }) = profile else {
         given.warn("emits nothing");
         return Ok(None);
@@ -73,7 +65,6 @@ pub(super) fn spot(
     (scale, power): ([f64; 3], Option<f64>),
     profile: Profile,
     given: &mut Given<'_>,
-    ctm: &Transform,
     table: u32,
 ) -> Result<Option<(DeltaLight, Intensity)>, Message> {
     let DeltaLight::Spot { position, axis, one_minus_cos_inner, one_minus_cos_outer, intensity } = spot else {
@@ -88,7 +79,7 @@ pub(super) fn spot(
     }
     let color = intensity.map(|x| f64::from(x) * profile.greatest);
     let Some(intensity) = strength(color, scale, power, || flux, given)? else { return Ok(None) };
-    let to_light = profile.aim.aimed(axis.map(f64::from), ctm);
+    let to_light = profile.aim.aimed(axis.map(f64::from), given.ctm);
     let cone = Some(Cone { axis, one_minus_cos_inner, one_minus_cos_outer, flux });
     Ok(Some((DeltaLight::Directed { position, to_light, intensity, table, cone }, profile.intensity)))
 }

@@ -1,8 +1,9 @@
-//! What a directive is given: its parameters, the files that it may name, and the notes of its reader.
+//! What a directive is given: its parameters, the files that it may name, the notes of its reader, and the transform that holds.
 
 use super::inputs::Files;
 use super::params::{Color, Params};
 use crate::message::Notes;
+use crate::transform::Transform;
 use etendue_render::scene::Message;
 use std::ops::{Deref, DerefMut};
 
@@ -11,6 +12,8 @@ pub(super) struct Given<'a> {
     pub(super) params: &'a mut Params,
     pub(super) files: Files<'a>,
     pub(super) notes: &'a mut Notes,
+    /// The transform that holds.
+    pub(super) ctm: &'a Transform,
 }
 
 impl Deref for Given<'_> {

@@ -6,7 +6,7 @@ use super::params::{Params, shown};
 use super::portals;
 use crate::message::shortened;
 use crate::radiance::{brightness, luminance, rounded, sky_of};
-use crate::transform::{Transform, one_minus_cos, sub};
+use crate::transform::{one_minus_cos, sub};
 use etendue::light::{EnvironmentMap, Portal};
 use etendue_render::scene::limits::MOST_RADIANCE;
 use etendue_render::scene::{DeltaLight, Environment, Message, SkyRadiance};
@@ -21,12 +21,11 @@ pub(super) enum Source {
 }
 
 /// Reads a `LightSource`.
-pub(super) fn read(kind: &str, given: &mut Given<'_>, ctm: &Transform) -> Result<Source, Message> {
-    if !["point", "spot", "distant", "infinite"].contains(&kind) {
-        return Err(
-            given.error("not supported, only \"point\", \"spot\", \"distant\", \"infinite\" and \"goniometric\"")
-        );
-    }
+pub(super) fn read(kind: &str, given: &mut Given<'_>) -> Result<Source, Message> {
+    given.require(
+        ["point", "spot", "distant", "infinite"].contains(&kind),
+        || "not supported, only \"point\", \"spot\", \"distant\", \"infinite\" and \"goniometric\"",
+    )?;
     let is_sky = kind == "infinite";
     let file = match if is_sky { given.text("filename")? } else { None } {
         None if is_sky => given.text("mapname")?,
@@ -53,19 +52,19 @@ pub(super) fn read(kind: &str, given: &mut Given<'_>, ctm: &Transform) -> Result
             );
         }
         (None, Some(formula)) => {
-            let (to_light, own) = (turned(given, ctm)?, colour.unwrap_or([1.0; 3]));
+            let (to_light, own) = (turned(given)?, colour.unwrap_or([1.0; 3]));
             let daylight = daylight::read(&formula, given, own, scale, wanted, &to_light)?;
             let light = |(sky, sun)| Source::Environment(Environment { to_light, sky, portals, sun });
             daylight.map_or(Source::Dark, light)
         }
         (Some(file), None) => {
-            let to_light = turned(given, ctm)?;
+            let to_light = turned(given)?;
             match pictured(&file, &strength, given)? {
                 Some(sky) => Source::Environment(Environment { to_light, sky, portals, sun: None }),
                 None => Source::Dark,
             }
         }
-        (None, None) => even(kind, name, &strength, given, ctm, portals)?,
+        (None, None) => even(kind, name, &strength, given, portals)?,
     };
     if matches!(source, Source::Dark) {
         given.warn("emits nothing");
@@ -113,7 +112,6 @@ fn even(
     name: &str,
     &Strength { colour, scale, wanted }: &Strength,
     given: &mut Given<'_>,
-    ctm: &Transform,
     portals: Vec<Portal>,
 ) -> Result<Source, Message> {
     let mut colour = colour.unwrap_or([1.0; 3]);
@@ -133,17 +131,13 @@ fn even(
     let too_large = || given.error(format!("{name:?} times \"scale\" is {colour:?}: at most {most:e} is supported"));
     let colour = rounded(colour).filter(|rgb| rgb.iter().all(|x| *x <= most)).ok_or_else(too_large)?;
     brightness(colour).into_iter().for_each(|text| given.warn(text));
-    let source = constant(kind, given, ctm, colour, portals)?;
+    let source = constant(kind, given, colour, portals)?;
     Ok(if colour == [0.0; 3] { Source::Dark } else { source })
 }
 
 /// Reads the power that a light shall have.
 pub(super) fn power(params: &mut Params) -> Result<Option<f64>, Message> {
-    let power = params.float("power")?;
-    match power.filter(|&x| x <= 0.0) {
-        Some(x) => Err(params.error(format!("\"power\": must be greater than 0, not {}", shown(x)))),
-        None => Ok(power),
-    }
+    params.float("power")?.map(|power| params.bound("power", power, power > 0.0, "greater than 0")).transpose()
 }
 
 /// The factor of a light; older files have one for each channel.
@@ -154,10 +148,8 @@ pub(super) fn scale(params: &mut Params) -> Result<[f64; 3], Message> {
         [r, g, b] => [r, g, b],
         _ => return Err(params.error(format!("\"scale\": expected one number, found {}", scale.len()))),
     };
-    match scale.iter().find(|&&x| x < 0.0) {
-        Some(x) => Err(params.error(format!("\"scale\": must be at least 0, not {}", shown(*x)))),
-        None => Ok(scale),
-    }
+    scale.into_iter().try_for_each(|x| params.bound("scale", x, x >= 0.0, "at least 0").map(|_| ()))?;
+    Ok(scale)
 }
 
 /// The power of a spot light of intensity 1 by pbrt's formula, which takes the mean of both cones: an angle in steradians.
@@ -210,57 +202,41 @@ fn facing(map: EnvironmentMap, [width, height]: [usize; 2], [x, y]: [usize; 2]) 
     if sum > 1e-7 * map.texel_solid_angle(width, height, y) { sum } else { 0.0 }
 }
 
-fn constant(
-    kind: &str,
-    given: &mut Given<'_>,
-    ctm: &Transform,
-    colour: [f32; 3],
-    portals: Vec<Portal>,
-) -> Result<Source, Message> {
-    let mut point = |name: &str, default: [f64; 3]| -> Result<[f64; 3], Message> {
+fn constant(kind: &str, given: &mut Given<'_>, colour: [f32; 3], portals: Vec<Portal>) -> Result<Source, Message> {
+    let point = |given: &mut Given<'_>, name: &str, default: [f64; 3]| -> Result<[f64; 3], Message> {
         let Some(p) = given.numbers(name, "point3", 3)? else { return Ok(default) };
         <[f64; 3]>::try_from(&p[..])
             .map_err(|_| given.error(format!("{name:?}: expected three numbers, found {}", p.len())))
     };
     if kind == "infinite" {
         return Ok(Source::Environment(Environment {
-            to_light: turned(given, ctm)?,
+            to_light: turned(given)?,
             sky: SkyRadiance::Constant(colour),
             portals,
             sun: None,
         }));
     }
-    let from = point("from", [0.0; 3])?;
-    let position = ctm.point(from).map(|x| x as f32);
-    if !position.iter().all(|x| x.is_finite()) {
-        return Err(given.error(format!("its position {:?} is not finite in f32", ctm.point(from))));
-    }
+    let from = point(given, "from", [0.0; 3])?;
+    let position = position(given, given.ctm.point(from))?;
     if kind == "point" {
         return Ok(Source::Delta(DeltaLight::Point { position, intensity: colour }));
     }
-    let to = point("to", [0.0, 0.0, 1.0])?;
-    let axis = ctm.direction(sub(to, from), 1e-12);
+    let to = point(given, "to", [0.0, 0.0, 1.0])?;
+    let axis = given.ctm.direction(sub(to, from), 1e-12);
     let axis = axis.ok_or_else(|| given.error(format!("\"from\" {from:?} and \"to\" {to:?} define no direction")))?;
     if kind == "distant" {
         let direction = axis.map(|x| -x as f32);
         return Ok(Source::Delta(DeltaLight::Distant { direction, irradiance: colour }));
     }
-    if ctm.similarity().is_none() {
-        return Err(given
-            .error("its transform stretches its cone: only rotations, reflections and uniform scales are supported"));
-    }
+    given.require(
+        given.ctm.similarity().is_some(),
+        || "its transform stretches its cone: only rotations, reflections and uniform scales are supported",
+    )?;
     let outer = given.float("coneangle")?.unwrap_or(30.0);
     let delta = given.float("conedeltaangle")?.unwrap_or(5.0);
-    if !(outer > 0.0 && outer <= 180.0) {
-        return Err(
-            given.error(format!("\"coneangle\": must be greater than 0 and at most 180 degrees, not {}", shown(outer)))
-        );
-    }
-    if !(0.0..=outer).contains(&delta) {
-        return Err(
-            given.error(format!("\"conedeltaangle\": must be from 0 to the cone angle {outer}, not {}", shown(delta)))
-        );
-    }
+    given.bound("coneangle", outer, outer > 0.0 && outer <= 180.0, "greater than 0 and at most 180 degrees")?;
+    let range = format!("from 0 to the cone angle {outer}");
+    given.bound("conedeltaangle", delta, (0.0..=outer).contains(&delta), &range)?;
     let [one_minus_cos_inner, one_minus_cos_outer] =
         [outer - delta, outer].map(|degrees| one_minus_cos(degrees.to_radians()) as f32);
     let axis = axis.map(|x| x as f32);
@@ -268,8 +244,15 @@ fn constant(
     Ok(Source::Delta(DeltaLight::Spot { position, axis, one_minus_cos_inner, one_minus_cos_outer, intensity }))
 }
 
+/// The position of a light in world space.
+pub(super) fn position(params: &Params, p: [f64; 3]) -> Result<[f32; 3], Message> {
+    let rounded = p.map(|x| x as f32);
+    params.require(rounded.iter().all(|x| x.is_finite()), || format!("its position {p:?} is not finite in f32"))?;
+    Ok(rounded)
+}
+
 /// The rotation from world space to light space.
-pub(super) fn turned(params: &Params, ctm: &Transform) -> Result<[[f32; 3]; 3], Message> {
-    let stretched = || params.error("its transform may only consist of rotations, reflections and uniform scales");
-    ctm.axes().ok_or_else(stretched)
+pub(super) fn turned(given: &Given<'_>) -> Result<[[f32; 3]; 3], Message> {
+    let stretched = || given.error("its transform may only consist of rotations, reflections and uniform scales");
+    given.ctm.axes().ok_or_else(stretched)
 }

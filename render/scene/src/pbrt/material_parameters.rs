@@ -63,11 +63,8 @@ pub(super) fn read(kind: &str, mut context: Context<'_>, mixtures: &mut Vec<Mixt
         "diffusetransmission" => {
             stand_in(&mut context.given, "what it reflects: light that passes through it is lost");
             let scale = context.given.float("scale")?.unwrap_or(1.0);
-            if !(0.0..=f64::from(f32::MAX)).contains(&scale) {
-                return Err(context
-                    .given
-                    .error(format!("\"scale\": must be finite and at least 0, not {}", shown(scale))));
-            }
+            let is_right = (0.0..=f64::from(f32::MAX)).contains(&scale);
+            context.given.bound("scale", scale, is_right, "finite and at least 0")?;
             let albedo = context.color(&["reflectance"], 0.25)?.times(Texture::number(scale as f32));
             albedo
                 .constant()
@@ -144,10 +141,8 @@ impl Context<'_> {
                 return Ok(texture.map_or(1.5, |texture| texture.mean()[0].into()));
             }
             if let Some(index) = Textures::index(name, &mut self.given)? {
-                if index.iter().all(|x| (1e-3..=1e3).contains(x)) {
-                    return Ok(index[1]);
-                }
-                return Err(self.given.error(format!("{name:?}: must be from 1e-3 to 1e3, not {}", shown(index[1]))));
+                let are_right = index.iter().all(|x| (1e-3..=1e3).contains(x));
+                return self.given.bound(name, index[1], are_right, "from 1e-3 to 1e3");
             }
         }
         Ok(1.5)
@@ -213,9 +208,7 @@ impl Context<'_> {
         let both = self.given.float(&names[0])?.unwrap_or(default.into());
         let each = [self.given.float(&names[1])?.unwrap_or(both), self.given.float(&names[2])?.unwrap_or(both)];
         for x in each {
-            if x.is_nan() || x < 0.0 {
-                return Err(self.given.error(format!("\"{prefix}roughness\": must be from 0 to 1, not {}", shown(x))));
-            }
+            self.given.bound(&names[0], x, x >= 0.0, "from 0 to 1")?;
             if x > 1.0 {
                 self.given.warn(format!("\"{prefix}roughness\": {} counts as 1", shown(x)));
             }
@@ -323,8 +316,8 @@ impl Context<'_> {
                 return Ok(self.metal(Texture::Constant(r.map(|x| x as f32)), roughness));
             }
             (Some(Value::Constant(r)), _) => {
-                if let Some(x) = r.iter().find(|&&x| x > 1.0) {
-                    return Err(self.given.error(format!("\"reflectance\": must be at most 1, not {}", shown(*x))));
+                for x in r {
+                    self.given.bound("reflectance", x, x <= 1.0, "at most 1")?;
                 }
                 ([1.0; 3], r.map(index_of_reflectance))
             }

@@ -36,9 +36,9 @@ pub(super) fn read(name: &str, given: &mut Given<'_>) -> Result<Option<Profile>,
 fn picture(given: &Given<'_>, name: &str) -> Result<Picture, Message> {
     let image = given.files.image(name).map_err(|error| given.error(error.to_string()))?;
     let (width, height) = (image.width, image.height);
-    if width * height > MOST_TEXELS {
-        return Err(given.error(format!("{name}: {width}×{height} texels: at most 2^26 are supported")));
-    }
+    given.require(width * height <= MOST_TEXELS, || {
+        format!("{name}: {width}×{height} texels: at most 2^26 are supported")
+    })?;
     let is_wrong = |rgb: &[f32; 3]| !rgb.iter().all(|x| (0.0..=f32::MAX).contains(x));
     if let Some(i) = image.radiance.iter().position(is_wrong) {
         let (x, y, texel) = (i % width, i / width, image.radiance[i]);

@@ -269,15 +269,17 @@ impl Reader<'_> {
         let params = Params::read(lexer, format!("Texture {:?}", shortened(&name)), place)?;
         let mut params = params.of("Texture", &kind);
         self.with_defaults("texture", &mut params);
-        let mut given = Given { params: &mut params, files: self.files.at(dir), notes: &mut self.out.notes };
-        self.textures.define(&name, &value, &kind, &mut given)?;
+        let Self { out, state, files, textures, .. } = self;
+        let files = files.at(dir);
+        let mut given = Given { params: &mut params, files, notes: &mut out.notes, ctm: &state.ctm };
+        textures.define(&name, &value, &kind, &mut given)?;
         params.finish(&mut self.out.notes);
         Ok(())
     }
 
     fn with_params(&mut self, word: &str, kind: &str, mut params: Params, dir: &Path) -> Result<(), Message> {
         match word {
-            "Camera" => self.camera(kind, &mut params)?,
+            "Camera" => self.camera(kind, &mut params, dir)?,
             "Film" => self.film = Some(film_and_camera::film(kind, &mut params)?),
             "Sampler" => self.pixel_samples = Some(film_and_camera::samples(kind, &mut params, &mut self.out.notes)?),
             "PixelFilter" => {
@@ -313,7 +315,8 @@ impl Reader<'_> {
             "AreaLightSource" => {
                 self.with_defaults("light", &mut params);
                 let Self { out, state, files, shown, .. } = self;
-                let mut given = Given { params: &mut params, files: files.at(dir), notes: &mut out.notes };
+                let files = files.at(dir);
+                let mut given = Given { params: &mut params, files, notes: &mut out.notes, ctm: &state.ctm };
                 state.area = area_lights::read(kind, &mut given, shown)?;
             }
             "LightSource" => {
@@ -337,8 +340,8 @@ impl Reader<'_> {
     }
 
     fn material(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<Finish, Message> {
-        let Self { out, named, textures, files, mixtures, .. } = self;
-        let given = Given { params, files: files.at(dir), notes: &mut out.notes };
+        let Self { out, state, named, textures, files, mixtures, .. } = self;
+        let given = Given { params, files: files.at(dir), notes: &mut out.notes, ctm: &state.ctm };
         let context = Context { textures, named: &|name| named.get(name), materials: &mut out.materials, given };
         material_parameters::read(kind, context, mixtures)
     }
@@ -359,11 +362,13 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn camera(&mut self, kind: &str, params: &mut Params) -> Result<(), Message> {
+    fn camera(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<(), Message> {
+        let Self { out, state, files, .. } = self;
+        let mut given = Given { params, files: files.at(dir), notes: &mut out.notes, ctm: &state.ctm };
         if self.camera.is_some() {
-            self.out.notes.warn(params.error("a second camera: the last one counts"));
+            given.warn("a second camera: the last one counts");
         }
-        let (camera, world, shutter) = film_and_camera::camera(kind, params, &self.state.ctm, &mut self.out.notes)?;
+        let (camera, world, shutter) = film_and_camera::camera(kind, &mut given)?;
         self.systems.insert("camera".into(), world);
         self.camera = Some(camera);
         self.shutter = shutter;
@@ -372,8 +377,7 @@ impl Reader<'_> {
 
     fn light(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<(), Message> {
         let Self { out, state, sources, files, .. } = self;
-        let mut given = Given { params, files: files.at(dir), notes: &mut out.notes };
-        sources.read(kind, &mut given, &state.ctm)
+        sources.read(kind, &mut Given { params, files: files.at(dir), notes: &mut out.notes, ctm: &state.ctm })
     }
 
     fn shape(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<(), Message> {

@@ -39,10 +39,8 @@ impl ShapeState {
         out: &mut Builder,
     ) -> Result<Option<ShapeAttributes>, Message> {
         let det = self.ctm.determinant();
-        if det == 0.0 || !det.is_finite() {
-            return Err(params.error("its transform is singular"));
-        }
-        let opacity = textures.number("alpha", &mut Given { params, files, notes: &mut out.notes })?;
+        params.require(det != 0.0 && det.is_finite(), || "its transform is singular")?;
+        let opacity = textures.number("alpha", &mut Given { params, files, notes: &mut out.notes, ctm: &self.ctm })?;
         let is_absent = |opacity: &Texture| opacity.constant().is_some_and(|[x, ..]| x <= 0.0);
         if opacity.as_ref().is_some_and(is_absent) && self.area.emission.is_none() {
             params.ignore_all();

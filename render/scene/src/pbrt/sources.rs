@@ -3,7 +3,6 @@
 use super::given::Given;
 use super::lights::{self, Source};
 use super::{directed, portal_sides, profiles};
-use crate::transform::Transform;
 use etendue::light::{Portal, PortalEnvironment};
 use etendue_render::scene::intensity::Intensity;
 use etendue_render::scene::limits::MOST_RADIANCE;
@@ -23,10 +22,10 @@ pub(super) struct Sources {
 
 impl Sources {
     /// Reads a `LightSource`.
-    pub(super) fn read(&mut self, kind: &str, given: &mut Given<'_>, ctm: &Transform) -> Result<(), Message> {
+    pub(super) fn read(&mut self, kind: &str, given: &mut Given<'_>) -> Result<(), Message> {
         let table = self.intensities.len() as u32;
         if kind == "goniometric" {
-            self.push(directed::read(given, ctm, table)?);
+            self.push(directed::read(given, table)?);
             return Ok(());
         }
         if kind == "projection" {
@@ -41,12 +40,12 @@ impl Sources {
             }
             None => None,
         };
-        match lights::read(kind, given, ctm)? {
+        match lights::read(kind, given)? {
             Source::Delta(light) => match profile {
                 None => self.delta_lights.push(light),
                 Some((None, _)) => given.warn("emits nothing"),
                 Some((Some(profile), strength)) => {
-                    self.push(directed::spot(light, strength, profile, given, ctm, table)?);
+                    self.push(directed::spot(light, strength, profile, given, table)?);
                 }
             },
             Source::Environment(environment) => {

@@ -1,7 +1,7 @@
 //! Reads `Texture`, and the parameters of materials that may be textures.
 
 use super::given::Given;
-use super::params::{Color, Params, shown};
+use super::params::{Color, Params};
 use super::spectrum::Named;
 use crate::image::{Encoding, read_texels, sound};
 use crate::message::shortened;
@@ -180,9 +180,9 @@ impl Textures {
         if let Some(x) = rgb.iter().find(|&&x| x > 1.0) {
             given.warn(format!("{name:?}: {x} is greater than 1: the surface reflects more light than it receives"));
         }
-        if rgb.iter().any(|&x| !(x as f32).is_finite()) {
-            return Err(given.error(format!("{name:?}: {rgb:?} is too large for f32")));
-        }
+        given.require(rgb.iter().all(|&x| (x as f32).is_finite()), || {
+            format!("{name:?}: {rgb:?} is too large for f32")
+        })?;
         Ok(Some(Value::Constant(rgb)))
     }
 
@@ -226,8 +226,7 @@ impl Textures {
 
 /// A number that is finite in f32.
 fn finite(name: &str, x: f64, given: &Params) -> Result<f32, Message> {
-    let wrong = || given.error(format!("{name:?}: must be finite in f32, not {}", shown(x)));
-    Some(x as f32).filter(|x| x.is_finite()).ok_or_else(wrong)
+    Ok(given.bound(name, x, (x as f32).is_finite(), "finite in f32")? as f32)
 }
 
 /// The mapping of a texture: "uv", or as if it were that.
