@@ -1,4 +1,4 @@
-//! Compares the certificates of small scenes with single segments.
+//! Compares what is proved of small scenes with the oracle.
 #![no_main]
 
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| etendue_fuzz_bodies::certificates(bytes));

@@ -22,10 +22,6 @@ mod corners;
 #[cfg(feature = "exr")]
 pub mod identity;
 mod light_weights;
-#[cfg(feature = "exr")]
-pub mod merge;
-#[cfg(feature = "exr")]
-pub mod parts;
 mod pixel_counts;
 mod pixel_statistics;
 pub mod progressive;
@@ -33,14 +29,10 @@ mod radiance;
 mod runs;
 mod second_sets;
 mod specks;
-pub mod split;
 mod tile;
 mod view;
 mod world;
 
 pub use auto::{AutoTrial, TechniqueChoice};
-pub use light_weights::APART;
-pub use pixel_counts::PixelCounts;
-pub use pixel_statistics::Statistics;
-pub use view::{Content, Samples, View};
+pub use view::View;
 pub use world::World;

@@ -15,7 +15,7 @@ pub(crate) fn tiles([left, top, right, bottom]: Area) -> impl Iterator<Item = Ar
 
 /// Everything an image depends on besides the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "exr", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "exr", derive(serde::Serialize))]
 pub struct Settings {
     /// Pixels across, at least 1.
     pub width: u32,

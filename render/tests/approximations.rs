@@ -1,7 +1,7 @@
 //! How far what the list calls approximated is off, against closed forms and sums in double precision; the list has these figures.
 
 use crate::kit::{pixel, read, world};
-use etendue_oracle::{V3, cross, dot, length, sub, unit};
+use etendue_oracle::{V3, cross, direct, dot, length, sub, unit};
 use etendue_render::Technique;
 use etendue_render::scene::Geometry;
 use etendue_scene::list::PBRT;
@@ -54,9 +54,7 @@ fn cylinders_are_nearly_prisms() {
 
 /// Fresnel's reflectance of a dielectric of index 1.5.
 fn fresnel(angle: f64) -> f64 {
-    let (cos, inside) = (angle.cos(), (1.0 - (angle.sin() / 1.5).powi(2)).sqrt());
-    let [across, along] = [(cos - 1.5 * inside) / (cos + 1.5 * inside), (1.5 * cos - inside) / (1.5 * cos + inside)];
-    0.5 * (across * across + along * along)
+    direct::fresnel(angle.cos(), 1.5, 0.0)
 }
 
 /// What a pane lets through of a sun at an angle, beside the series of both sides.

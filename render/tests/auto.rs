@@ -2,7 +2,7 @@
 
 use crate::kit::read;
 use etendue::light::EnvironmentMap;
-use etendue_render::drive::{AutoTrial, Samples};
+use etendue_render::drive::AutoTrial;
 use etendue_render::scene::{Environment, SkyRadiance};
 use etendue_render::{ChoiceBy, Sampler, Settings, Technique, World};
 use rayon::ThreadPoolBuilder;
@@ -56,7 +56,7 @@ fn auto_takes_what_does_not_miss_the_sun() {
     assert!(trial.times > 1.1 && trial.part <= 0.03 && (6..=16).contains(&trial.tiles), "{trial:?}");
     // the image is that of what was taken
     let area = [16, 32, 48, 64];
-    let image = |settings: &Settings| even.view(settings).render(area, Samples::All, &|_| ());
+    let image = |settings: &Settings| even.view(settings).render(area, &|_| ());
     assert_eq!(image(&LARGE).0, image(&Settings { technique, choice, ..LARGE }).0);
     let (technique, _, trial) = taken(&sunny, &LARGE);
     assert_ne!(technique, Technique::Brdf, "{trial:?}");

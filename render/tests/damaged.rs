@@ -1,15 +1,13 @@
 //! Damaged copies of files.
 
+use crate::random::Random;
+
 /// Calls `judge` with each beginning of a file, and with this many copies of which a few bytes are others, missing, exchanged or one of
 /// these pieces.
 pub(crate) fn damaged(whole: &[u8], pieces: &[&str], copies: usize, mut judge: impl FnMut(&[u8])) {
     (0..whole.len()).for_each(|end| judge(&whole[..end]));
-    // Knuth's MMIX generator, of which the high bits count
-    let mut state = whole.len() as u64;
-    let mut below = |n: usize| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 33) as usize % n
-    };
+    let mut random = Random::new(whole.len() as u64);
+    let mut below = |n: usize| random.below(n);
     for _ in 0..copies {
         let mut bytes = whole.to_vec();
         for _ in 0..1 + below(4) {

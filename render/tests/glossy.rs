@@ -1,6 +1,6 @@
 //! Light that rough surfaces reflect, against sums and the formula in double precision.
 
-use crate::kit::{ALBEDO, BLACK, narrow, pixel, world};
+use crate::kit::{ALBEDO, BLACK, list, narrow, pixel, quad, world};
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, basis, cross, dot, integrate, length, sub, unit};
 use etendue_render::film::compare::differs;
@@ -21,18 +21,11 @@ impl Light {
         if emits {
             text.push_str("AreaLightSource \"diffuse\" \"rgb L\" [1 1 1] \"bool twosided\" true\n");
         }
-        let list = |points: &[V3]| points.iter().flatten().map(f64::to_string).collect::<Vec<_>>().join(" ");
         let shape = match *self {
-            Self::Panel { corner, edges: [u, v] } => {
-                let corners =
-                    [corner, along(corner, u, 1.0), along(corner, v, 1.0), along(along(corner, u, 1.0), v, 1.0)];
-                format!("Shape \"bilinearmesh\" \"point3 P\" [{}]", list(&corners))
-            }
-            Self::Triangle { corner, edges: [u, v] } => {
-                format!(
-                    "Shape \"trianglemesh\" \"point3 P\" [{}]",
-                    list(&[corner, along(corner, u, 1.0), along(corner, v, 1.0)])
-                )
+            Self::Panel { corner, edges } => quad(corner, edges),
+            Self::Triangle { corner, edges } => {
+                let [a, b] = edges.map(|edge| along(corner, edge, 1.0));
+                format!("Shape \"trianglemesh\" \"point3 P\" [{}]", list(&[corner, a, b]))
             }
             Self::Ball { center, radius } => {
                 let [x, y, z] = center;

@@ -1,6 +1,6 @@
 //! Rough surfaces beside diffuse ones, and boxes with holes; `attack` has veils and what is behind them.
 
-use crate::kit::{film, narrow, settings, sum, world};
+use crate::kit::{self, narrow, world};
 use etendue_render::film::compare::LIMIT;
 use etendue_render::{Technique, World};
 
@@ -8,9 +8,8 @@ const TECHNIQUES: [Technique; 4] =
     [Technique::SolidAngle, Technique::MisPower, Technique::Analytic, Technique::CosineHemisphere];
 
 /// Mean and standard error of the green channel of the only pixel.
-fn pixel(world: &World, technique: Technique, spp: u32) -> (f64, f64) {
-    let [mean, variance] = sum(&film(world, &settings(technique, 1, spp)));
-    (mean, variance.sqrt())
+fn pixel(world: &World, technique: Technique, spp: u32) -> [f64; 2] {
+    kit::pixel(world, technique, spp).map(|color| color[1])
 }
 
 fn seen(camera: &str, scene: &str) -> World {
@@ -44,10 +43,10 @@ fn only_rough_surfaces_combine_light_and_bsdf() {
         ("\"coateddiffuse\" \"float roughness\" .3", bent),
     ] {
         let world = seen("2 .6 0", &format!("{lamp}{ball}Material {material}\n{}", square(9.0, 0.0, parameters)));
-        let (truth, more) = pixel(&world, Technique::Brdf, 1 << 14);
+        let [truth, more] = pixel(&world, Technique::Brdf, 1 << 14);
         assert!(truth > 0.1, "{material}: {truth}");
         for technique in [Technique::Analytic, Technique::MisPower] {
-            let (mean, error) = pixel(&world, technique, 1 << 14);
+            let [mean, error] = pixel(&world, technique, 1 << 14);
             let error = error.hypot(more).max(2e-4 * truth);
             assert!((mean - truth).abs() < LIMIT * error, "{technique:?} {material}: {mean}, {truth} ± {error}");
             assert!(error < 0.01 * truth, "{technique:?} {material}: {error} of {truth}");
@@ -74,14 +73,14 @@ fn boxes_with_holes_are_no_bodies() {
     let half = format!("{below}{above}{}", mesh("", upright));
     for technique in TECHNIQUES {
         let seen = |cage: &str| pixel(&seen("5 .5 0", &format!("{LAMP}{floor}{cage}")), technique, 1 << 14);
-        let (open, more) = seen("");
+        let [open, more] = seen("");
         for cage in &cages {
-            let (mean, error) = seen(cage);
+            let [mean, error] = seen(cage);
             let (wanted, error) = (0.36 * open, error.hypot(0.36 * more));
             assert!((mean - wanted).abs() < LIMIT * error, "{technique:?}: {mean} of {wanted}, error {error}");
         }
         // the lamp is symmetric about the middle
-        let ((mean, error), wanted) = (seen(&half), 0.18 * open);
+        let ([mean, error], wanted) = (seen(&half), 0.18 * open);
         let error = error.hypot(0.18 * more);
         assert!((mean - wanted).abs() < LIMIT * error, "{technique:?}: half {mean} of {wanted}, error {error}");
     }

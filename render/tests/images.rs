@@ -1,8 +1,6 @@
 //! Images in files: their sizes, which are accepted only if the file is long enough, and their windows.
 
 use crate::kit::Folder;
-use etendue_render::drive::Content;
-use etendue_render::drive::parts::{self, PieceFile};
 use etendue_render::film::files::check_replaceable;
 use etendue_render::film::image::Picture;
 use etendue_render::film::{Film, Pixel, Second};
@@ -110,10 +108,8 @@ fn parts_have_places() {
         (None, [0, 0], [10, 4]),
     ] {
         let identity = Identity { place, ..identity.clone() };
-        parts::write_image(&file, &identity, film.pixels.clone()).unwrap();
-        let mut again = PieceFile::open(&file).unwrap();
-        assert_eq!(again.header.identity, identity);
-        assert_eq!(again.read().unwrap().content, Content::Pixels(film.pixels.clone()));
+        identity.write_image(&file, &film.pixels).unwrap();
+        assert_eq!(Identity::scene_of(&file), Some([identity.scene.clone(), identity.digest.clone()]));
         let header = MetaData::read_from_file(&file, false).unwrap().headers[0].clone();
         let display = header.shared_attributes.display_window;
         assert_eq!((display.position, display.size), (Vec2(0, 0), Vec2(whole[0], whole[1])));
@@ -126,6 +122,19 @@ fn parts_have_places() {
         assert_eq!(at(start[0] as usize + 3, start[1] as usize + 2), [23.0, 1.0, 2.0]);
         assert_eq!(picture.radiance.iter().map(|rgb| rgb[1]).sum::<f32>(), 40.0);
     }
+    // a damaged header is an error that names the file and says more than a number, or the image is read
+    let bytes = std::fs::read(&file).unwrap();
+    let refused = (0..900).flat_map(|at| [(at, at % 8), (at, 4)]).filter(|(at, bit)| {
+        let mut damaged = bytes.clone();
+        damaged[*at] ^= 1 << bit;
+        let Err(error) = image::decode_exr(&damaged, Path::new("a.exr")) else { return false };
+        let error = error.to_string();
+        let what = error.strip_prefix("a.exr: ").unwrap_or_default();
+        let is_explained = what.len() > 10 && !what.contains("os error") && !what.contains("missing bytes");
+        assert!(is_explained, "byte {at}, bit {bit}: {error}");
+        true
+    });
+    assert!(refused.count() > 450);
     std::fs::remove_file(&file).unwrap();
 }
 

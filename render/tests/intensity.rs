@@ -10,14 +10,22 @@ use std::f64::consts::{PI, TAU};
 
 /// A table that owns its numbers.
 #[derive(Debug)]
-struct IntensityTable {
+pub(crate) struct IntensityTable {
     polar: Vec<f32>,
     azimuth: Vec<f32>,
-    values: Vec<f32>,
+    pub(crate) values: Vec<f32>,
 }
 
 impl IntensityTable {
-    fn profile(&self) -> Profile {
+    /// By steps of 5° from the pole and of 15° around it.
+    pub(crate) fn even(value: impl Fn(f64, f64) -> f64) -> Self {
+        let steps = |count: u16, step: u16| -> Vec<f32> { (0..count).map(|i| f32::from(i * step)).collect() };
+        let (polar, azimuth) = (steps(37, 5), steps(25, 15));
+        let values = azimuth.iter().flat_map(|&a| polar.iter().map(move |&p| (p, a)));
+        let values = values.map(|(p, a)| value(f64::from(p), f64::from(a % 360.0)) as f32).collect();
+        Self { polar, azimuth, values }
+    }
+    pub(crate) fn profile(&self) -> Profile {
         Profile::new(self.polar.clone(), self.azimuth.clone(), self.values.clone()).unwrap()
     }
     /// Some table; of every third, the azimuths do not go all around.
@@ -48,23 +56,24 @@ impl IntensityTable {
     }
     /// Value at angles in degrees, by a search from the start.
     fn at(&self, polar: f64, azimuth: f64) -> f64 {
-        let n = self.polar.len();
-        let wide = |angles: &[f32]| -> Vec<f64> { angles.iter().map(|&a| f64::from(a)).collect() };
-        let (rows, columns) = (wide(&self.polar), wide(&self.azimuth));
-        let Some(j) = (0..n - 1).find(|&j| rows[j] <= polar && polar <= rows[j + 1]) else { return 0.0 };
-        let t = (polar - rows[j]) / (rows[j + 1] - rows[j]);
-        let value =
-            |i: usize| f64::from(self.values[i * n + j]) * (1.0 - t) + f64::from(self.values[i * n + j + 1]) * t;
-        if columns.len() == 1 {
+        let between = |angles: &[f32], angle: f64| {
+            let j = angles.windows(2).position(|pair| f64::from(pair[0]) <= angle && angle <= f64::from(pair[1]))?;
+            let [low, high] = [j, j + 1].map(|j| f64::from(angles[j]));
+            Some((j, (angle - low) / (high - low)))
+        };
+        let Some((j, t)) = between(&self.polar, polar) else { return 0.0 };
+        let row = |i: usize| &self.values[i * self.polar.len() + j..][..2];
+        let value = |i: usize| f64::from(row(i)[0]) * (1.0 - t) + f64::from(row(i)[1]) * t;
+        if self.azimuth.len() == 1 {
             return value(0);
         }
-        for azimuth in [azimuth, azimuth - 360.0] {
-            if let Some(i) = (0..columns.len() - 1).find(|&i| columns[i] <= azimuth && azimuth <= columns[i + 1]) {
-                let s = (azimuth - columns[i]) / (columns[i + 1] - columns[i]);
-                return value(i) * (1.0 - s) + value(i + 1) * s;
-            }
-        }
-        0.0
+        let found = [azimuth, azimuth - 360.0].into_iter().find_map(|azimuth| between(&self.azimuth, azimuth));
+        found.map_or(0.0, |(i, s)| value(i) * (1.0 - s) + value(i + 1) * s)
+    }
+    /// Value in a direction.
+    pub(crate) fn towards(&self, w: V3) -> f64 {
+        let [polar, azimuth] = Self::angles(w);
+        self.at(polar, azimuth)
     }
     fn angles(w: V3) -> [f64; 2] {
         [w[0].hypot(w[1]).atan2(w[2]).to_degrees(), w[1].atan2(w[0]).to_degrees().rem_euclid(360.0)]

@@ -1,6 +1,6 @@
 //! What several tests need: temporary folders, scenes of which a pixel is a point, and the means of pixels and images.
 
-use etendue_oracle::V3;
+use etendue_oracle::{V3, along};
 use etendue_render::film::Film;
 use etendue_render::film::compare::LIMIT;
 use etendue_render::scene::Scene;
@@ -85,6 +85,17 @@ pub(crate) fn builtin(name: &str) -> World {
 /// A camera that sees the origin from a place, with a view so narrow that a pixel is a point, and what else is in the scene.
 pub(crate) fn narrow(camera: &str, scene: &str) -> String {
     format!("LookAt {camera} 0 0 0  0.1 1 0.2\nCamera \"perspective\" \"float fov\" 1e-3\nWorldBegin\n{scene}")
+}
+
+/// The coordinates of points, as files list them.
+pub(crate) fn list(points: &[V3]) -> String {
+    points.as_flattened().iter().map(f64::to_string).collect::<Vec<_>>().join(" ")
+}
+
+/// The parallelogram of a corner and two edges, with its normal along their cross product.
+pub(crate) fn quad(corner: V3, [u, v]: [V3; 2]) -> String {
+    let [a, b] = [u, v].map(|edge| along(corner, edge, 1.0));
+    format!("Shape \"bilinearmesh\" \"point3 P\" [{}]\n", list(&[corner, a, b, along(a, v, 1.0)]))
 }
 
 pub(crate) const ALBEDO: V3 = [0.8, 0.5, 0.2];

@@ -3,12 +3,12 @@
 
 use crate::kit::world;
 use crate::random::Random;
+use etendue_oracle::direct::fresnel;
 use etendue_oracle::{V3, along, cross, dot, unit};
 use etendue_render::film::compare::LIMIT;
 use etendue_render::{Sampler, Settings, Technique};
 use etendue_scene::list::PBRT;
 use rayon::prelude::*;
-use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
 /// What is below a coat.
@@ -40,18 +40,6 @@ const LIGHTS: [Option<[f64; 3]>; 4] =
 fn at([angle, turn]: [f64; 2]) -> V3 {
     let [angle, turn] = [angle, turn].map(f64::to_radians);
     [angle.sin() * turn.cos(), angle.sin() * turn.sin(), angle.cos()]
-}
-
-/// Reflectance of a metal or dielectric of index η + ik relative to the medium (Born and Wolf, 14.2), for unpolarised light.
-fn fresnel(cos: f64, [eta, k]: [f64; 2]) -> f64 {
-    let sine = 1.0 - cos * cos;
-    let t0 = eta * eta - k * k - sine;
-    let sum = (t0 * t0 + 4.0 * eta * eta * k * k).sqrt();
-    let a = (0.5 * (sum + t0)).max(0.0).sqrt();
-    let across = (sum + cos * cos - 2.0 * a * cos) / (sum + cos * cos + 2.0 * a * cos);
-    let along = across * (sum * cos * cos + sine * sine - 2.0 * a * cos * sine)
-        / (sum * cos * cos + sine * sine + 2.0 * a * cos * sine);
-    0.5 * (across + along)
 }
 
 fn lambda(w: V3, [a, b]: [f64; 2]) -> f64 {
@@ -99,7 +87,7 @@ fn follow(layers: &Layers, random: &mut Random) -> Option<(V3, V3)> {
         // one of both by Fresnel's formula
         let (chance, mut passes) = (random.unit(), false);
         let (o, weight) = scattered(w, [above, across], random, |m| {
-            passes = chance >= fresnel(dot(w, m), [index, 0.0]);
+            passes = chance >= fresnel(dot(w, m), index, 0.0);
             if passes { refracted(w, m, index) } else { reflected(w, m) }
         });
         if (o[2] * w[2] < 0.0) != passes {
@@ -123,7 +111,7 @@ fn follow(layers: &Layers, random: &mut Random) -> Option<(V3, V3)> {
                     cos = dot(arrives, m);
                     reflected(arrives, m)
                 });
-                part = [0, 1, 2].map(|k| part[k] * weight * fresnel(cos, METAL[k].map(|x| x / eta)));
+                part = [0, 1, 2].map(|k| part[k] * weight * fresnel(cos, METAL[k][0] / eta, METAL[k][1] / eta));
                 o
             }
         };
@@ -256,35 +244,4 @@ fn coats_that_differ_by_direction_pass_what_their_mean_does() {
     let listed = PBRT.entry("Material", "coateddiffuse").unwrap().parameter("uroughness").unwrap().note;
     println!("at most {worst}, listed as {listed:?}");
     assert!(worst < 0.02 && listed.contains("2 % off"), "{worst}: {listed}");
-}
-
-/// Prints how far coats are from walks over a grid: `cargo test -p etendue-render-tests -- the_grid_of_coats --ignored --nocapture`.
-#[test]
-#[ignore = "prints"]
-fn the_grid_of_coats() {
-    let mut worst = BTreeMap::new();
-    for (eta, view) in [1.1, 1.5, 2.0].into_iter().flat_map(|eta| [10.0, 60.0, 80.0].map(|view| (eta, view))) {
-        for above in [0.0, 0.1, 0.3, 0.6, 1.0] {
-            let metals = [0.0, 0.1, 0.3, 0.6, 1.0].map(Base::Metal);
-            for base in metals.into_iter().chain([0.2, 0.5, 1.0].map(Base::Diffuse)) {
-                // both smooth are mirrors
-                if above == 0.0 && matches!(base, Base::Metal(0.0)) {
-                    continue;
-                }
-                let kind = if matches!(base, Base::Metal(_)) { "coatedconductor" } else { "coateddiffuse" };
-                let coat = if above == 0.0 { "smooth" } else { "rough" };
-                let layers = Layers { base, above, across: above, eta, view };
-                let all = compare(&layers, 1 << 21, 1 << 15, &[Technique::Auto]);
-                for ((lines, most), light) in all.into_iter().zip(["sky", "lamp", "lamp", "lamp"]) {
-                    lines.iter().for_each(|line| println!("{line}"));
-                    let own: &mut (usize, f64) = worst.entry((kind, coat, light, view as u32)).or_default();
-                    *own = (own.0 + usize::from(most > 0.01), own.1.max(most));
-                }
-            }
-        }
-    }
-    println!("layers, coat, light, view: how many differ by over 1 % beyond {LIMIT} standard errors, and the most");
-    for ((kind, coat, light, view), (count, most)) in worst {
-        println!("{kind}, {coat}, {light}, {view}°: {count}, {:.2} %", 100.0 * most);
-    }
 }

@@ -27,7 +27,6 @@ mod meshes;
 mod occlusion;
 mod openings;
 mod panels;
-mod parts;
 mod pbrt;
 mod picture_irradiance;
 mod portals;

@@ -5,6 +5,7 @@ mod compact;
 mod known_values;
 mod lobes;
 mod properties;
+mod regimes;
 mod scenes;
 mod solids;
-mod truth;
+pub(crate) mod truth;

@@ -1,52 +1,23 @@
 //! Flat lights and spot lights with profiles: factors and powers by their definitions, summed in double precision.
 
+use crate::intensity::IntensityTable;
 use etendue::{SpotLight, Vec3};
 use etendue_judge::generators::Random;
 use etendue_judge::packets::Coordinates;
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, basis, unit};
 use etendue_render::packet::{V8, X8};
-use etendue_render::scene::intensity::{Intensity, Profile};
+use etendue_render::scene::intensity::Intensity;
 use etendue_render::scene::light_profile::LuminousOpening;
 use std::f64::consts::{PI, TAU};
 
-/// A table by steps of 5° from the pole and of 15° around it.
-struct OpeningTable {
-    polar: Vec<f32>,
-    azimuth: Vec<f32>,
-    values: Vec<f32>,
-}
-
-impl OpeningTable {
-    fn new(value: impl Fn(f64, f64) -> f64) -> Self {
-        let steps = |count: u16, step: u16| -> Vec<f32> { (0..count).map(|i| f32::from(i * step)).collect() };
-        let (polar, azimuth) = (steps(37, 5), steps(25, 15));
-        let values = azimuth.iter().flat_map(|&a| polar.iter().map(move |&p| (p, a)));
-        let values = values.map(|(p, a)| value(f64::from(p), f64::from(a % 360.0)) as f32).collect();
-        Self { polar, azimuth, values }
-    }
-    fn intensity(&self) -> Intensity {
-        Intensity::Angles(Profile::new(self.polar.clone(), self.azimuth.clone(), self.values.clone()).unwrap())
-    }
-    /// The value in a unit direction, by its definition.
-    fn at(&self, [x, y, z]: V3) -> f64 {
-        let rows = x.hypot(y).atan2(z).to_degrees() / 5.0;
-        let columns = y.atan2(x).rem_euclid(TAU).to_degrees() / 15.0;
-        let (row, column) = ((rows as usize).min(35), (columns as usize).min(23));
-        let (t, s) = (rows - row as f64, columns - column as f64);
-        let value = |i: usize, j: usize| f64::from(self.values[(column + j) * 37 + row + i]);
-        let across = |i: usize| value(i, 0) * (1.0 - s) + value(i, 1) * s;
-        across(0) * (1.0 - t) + across(1) * t
-    }
-}
-
 /// A lamp that shines all around, a narrow beam, one that is dark on half its sides, and one that shines upwards alone.
-fn tables() -> [OpeningTable; 4] {
+fn tables() -> [IntensityTable; 4] {
     [
-        OpeningTable::new(|polar, azimuth| 2.0 + polar.to_radians().cos() + azimuth.to_radians().sin()),
-        OpeningTable::new(|polar, _| f64::max(10.0 - polar, 0.0)),
-        OpeningTable::new(|polar, azimuth| if azimuth > 100.0 { 0.0 } else { polar * (180.0 - polar) }),
-        OpeningTable::new(|polar, azimuth| if polar > 90.0 { 1.0 + azimuth / 360.0 } else { 0.0 }),
+        IntensityTable::even(|polar, azimuth| 2.0 + polar.to_radians().cos() + azimuth.to_radians().sin()),
+        IntensityTable::even(|polar, _| f64::max(10.0 - polar, 0.0)),
+        IntensityTable::even(|polar, azimuth| if azimuth > 100.0 { 0.0 } else { polar * (180.0 - polar) }),
+        IntensityTable::even(|polar, azimuth| if polar > 90.0 { 1.0 + azimuth / 360.0 } else { 0.0 }),
     ]
 }
 
@@ -83,10 +54,10 @@ fn openings_keep_the_power() {
     let normals = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], unit([0.3, -0.5, -0.7])];
     let mut dark = 0;
     for (kind, table) in tables().iter().enumerate() {
-        let intensity = table.intensity();
+        let intensity = Intensity::Angles(table.profile());
         for (normal, two_sided) in normals.into_iter().flat_map(|n| [(n, false), (n, true)]) {
             let (most, sides) = if two_sided { (180.0, 2.0) } else { (90.0, 1.0) };
-            let flux = sum(normal, most, |w, cos| table.at(w) * (cos.abs() / least()).min(1.0));
+            let flux = sum(normal, most, |w, cos| table.towards(w) * (cos.abs() / least()).min(1.0));
             let Some(opening) = LuminousOpening::new(normal, two_sided, &intensity) else {
                 assert!(flux == 0.0 && !two_sided, "{kind} {normal:?}: {flux}");
                 dark += 1;
@@ -112,17 +83,17 @@ fn openings_keep_the_power() {
 fn openings_have_the_intensities_of_their_table() {
     let mut random = Random::new(3);
     let table = &tables()[0];
-    let intensity = table.intensity();
+    let intensity = Intensity::Angles(table.profile());
     let opening = LuminousOpening::new([0.0, 0.0, 1.0], false, &intensity).unwrap();
     let of = |directions: &[V3]| {
         let w: V8 = Coordinates::gather(directions);
         (opening.factor(w.z, intensity.at(w)) * w.z.abs()).to_array().map(f64::from)
     };
-    let scale = of(&[[0.0, 0.0, 1.0]])[0] / table.at([0.0, 0.0, 1.0]);
+    let scale = of(&[[0.0, 0.0, 1.0]])[0] / table.towards([0.0, 0.0, 1.0]);
     for _ in 0..cases(1000, 100_000) / 8 {
         let directions = [(); 8].map(|()| random.direction());
         for (w, found) in directions.into_iter().zip(of(&directions)) {
-            let wanted = table.at(w) * (w[2].abs() / least()).min(1.0);
+            let wanted = table.towards(w) * (w[2].abs() / least()).min(1.0);
             assert!((found / scale - wanted).abs() < 1e-5 * wanted.max(0.1), "{w:?}: {found} for {wanted}");
         }
     }
@@ -133,7 +104,7 @@ fn openings_have_the_intensities_of_their_table() {
 fn spot_lights_take_profiles() {
     let mut random = Random::new(5);
     for (kind, table) in tables().iter().enumerate() {
-        let intensity = table.intensity();
+        let intensity = Intensity::Angles(table.profile());
         for (inner, outer) in [(10.0_f64, 30.0_f64), (0.0, 5.0), (40.0, 40.0), (70.0, 150.0)] {
             let axis = if kind == 1 { [0.0, 0.0, 1.0] } else { random.direction() };
             let [cos_inner, cos_outer] = [inner, outer].map(|degrees| degrees.to_radians().cos());
@@ -150,7 +121,7 @@ fn spot_lights_take_profiles() {
                 let t = ((cos - cos_outer) / (cos_inner - cos_outer)).clamp(0.0, 1.0);
                 t * t * (3.0 - 2.0 * t)
             };
-            let wanted = sum(axis, outer, |w, cos| table.at(w) * falloff(cos));
+            let wanted = sum(axis, outer, |w, cos| table.towards(w) * falloff(cos));
             let most =
                 sum(axis, outer, |_, cos| falloff(cos)) * table.values.iter().fold(0.0, |m: f32, x| m.max(*x)) as f64;
             let power = intensity.flux_of_spot(&light.map(|x| x as f32));

@@ -1,7 +1,7 @@
 //! Lights with a spread, a profile or a picture, by every technique, against sums over the lights in double
 //! precision.
 
-use crate::kit::{BLACK, Folder, PLANE, narrow, nearly, world};
+use crate::kit::{BLACK, Folder, PLANE, list, narrow, nearly, world};
 use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, cross, dot, unit};
 use std::f64::consts::PI;
@@ -33,9 +33,8 @@ impl Panel<'_> {
     /// The shape alone.
     fn text(&self) -> String {
         let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|st| self.at(st));
-        let numbers: Vec<_> = corners.as_flattened().iter().map(f64::to_string).collect();
         let kind = if self.is_cut { "\"trianglemesh\" \"integer indices\" [0 1 2 1 3 2]" } else { "\"bilinearmesh\"" };
-        format!("Shape {kind} \"point3 P\" [{}] {}\n", numbers.join(" "), self.more)
+        format!("Shape {kind} \"point3 P\" [{}] {}\n", list(&corners), self.more)
     }
     /// The shape as a light.
     fn lamp(&self, light: &str) -> String {

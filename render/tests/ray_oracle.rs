@@ -9,10 +9,21 @@
 use crate::meshes::{Triangle, add, cube, meshes, point};
 use crate::random::Random;
 use etendue::{Mask, Real, Vec3, f32x8};
-use etendue_render::bvh::{Bvh, GROUP, Hits, PrimitiveId, PrimitiveIds, Scratch, ShapeSet, Traversal};
+use etendue_render::bvh::{Bvh, GROUP, Hits, PrimitiveId, PrimitiveIds, Rays, Scratch, ShapeSet, Traversal};
 use etendue_render::packet::M8;
 
-type Ray = ([f32; 3], [f32; 3]);
+/// Origin and direction.
+pub(crate) type Ray = ([f32; 3], [f32; 3]);
+
+/// A group of rays in packets.
+pub(crate) fn packets(bvh: &Bvh, rays: &[Ray]) -> Vec<Rays> {
+    let axis = |eight: &[Ray], k: usize, of: fn(&Ray) -> [f32; 3]| f32x8::from_fn(|lane| of(&eight[lane])[k]);
+    let vector = |eight: &[Ray], of: fn(&Ray) -> [f32; 3]| {
+        let [x, y, z] = [0, 1, 2].map(|k| axis(eight, k, of));
+        Vec3::new(x, y, z)
+    };
+    rays.chunks(8).map(|eight| bvh.rays(vector(eight, |ray| ray.0), vector(eight, |ray| ray.1))).collect()
+}
 
 /// A ray of a kind: in a random direction; towards a corner; towards a point of an edge; along an axis through the lattice, with −0; in
 /// the plane of a side of a triangle's box; from a corner.
@@ -65,11 +76,7 @@ struct GroupHits {
 }
 
 fn trace(bvh: &Bvh, rays: &[Ray], active: &[M8], stack: &mut Scratch) -> GroupHits {
-    let axis = |p: usize, f: &dyn Fn(usize) -> f32| f32x8::from_fn(|i| f(8 * p + i));
-    let vector = |p: usize, f: &dyn Fn(usize) -> [f32; 3]| {
-        Vec3::new(axis(p, &|i| f(i)[0]), axis(p, &|i| f(i)[1]), axis(p, &|i| f(i)[2]))
-    };
-    let packets: Vec<_> = (0..GROUP).map(|p| bvh.rays(vector(p, &|i| rays[i].0), vector(p, &|i| rays[i].1))).collect();
+    let packets = packets(bvh, rays);
     let mut hits = [Hits::none(f32x8::splat(f32::INFINITY)); GROUP];
     bvh.closest(&packets, active, &mut hits, stack);
     let bits = |x: f32x8, i: usize| x.to_array()[i].to_bits();

@@ -1,5 +1,6 @@
 //! Compares packets with a test of each triangle in double precision, and builds trees over difficult meshes.
 
+use crate::ray_oracle::{Ray, packets};
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Mask, Real, Vec2, Vec3, f32x8};
 use etendue_oracle::{V3, cross, dot, sub};
@@ -22,14 +23,16 @@ fn random(i: u32, dimension: u32) -> [f32; 2] {
     [u.x * 2.0 - 1.0, u.y * 2.0 - 1.0]
 }
 
+/// A point of the cube from −1 to 1.
+fn point(i: u32, k: u32) -> [f32; 3] {
+    let ([x, y], [z, _]) = (random(i, 2 * k), random(i, 2 * k + 1));
+    [x, y, z]
+}
+
 /// Checks a group of eight packets; returns the number of hits. Distances are accurate to 1e−6 of the scene's `scale`, 8 roundings of its
 /// coordinates.
-fn check(triangles: &[[[f32; 3]; 3]], bvh: &Bvh, rays: &[([f32; 3], [f32; 3])], scale: f32) -> usize {
-    let lanes = |p: usize, f: &dyn Fn(usize) -> [f32; 3]| {
-        let axis = |k: usize| f32x8::from_fn(|i| f(8 * p + i)[k]);
-        Vec3::new(axis(0), axis(1), axis(2))
-    };
-    let packets: Vec<_> = (0..8).map(|p| bvh.rays(lanes(p, &|i| rays[i].0), lanes(p, &|i| rays[i].1))).collect();
+fn check(triangles: &[[[f32; 3]; 3]], bvh: &Bvh, rays: &[Ray], scale: f32) -> usize {
+    let packets = packets(bvh, rays);
     let all = [<f32x8 as Real>::Mask::splat(true); 8];
     let (far, mut stack) = (f32x8::splat(f32::INFINITY), Scratch::default());
     let mut hits = [Hits::none(far); 8];
@@ -62,10 +65,6 @@ fn tree(triangles: &[[[f32; 3]; 3]]) -> Bvh {
 
 #[test]
 fn packets_find_what_is_there() {
-    let point = |i: u32, k: u32| {
-        let ([x, y], [z, _]) = (random(i, 2 * k), random(i, 2 * k + 1));
-        [x, y, z]
-    };
     for scale in [1e-6_f32, 1.0, 1e6] {
         let triangles: Vec<[[f32; 3]; 3]> = (0..600)
             .map(|i| {
@@ -99,7 +98,6 @@ fn packets_find_what_is_there() {
     }
 }
 
-/// A rotation about a random axis, after a scale of each axis, one of them mirrored or not, and before a shift.
 /// Rays meet disks where they meet their planes within the radius, and nowhere else; both sides are hit.
 #[test]
 fn disks_are_round() {
@@ -148,6 +146,7 @@ fn disks_are_round() {
     assert!(counts.iter().all(|&count| count > 400), "misses and hits: {counts:?}");
 }
 
+/// A rotation about a random axis, after a scale of each axis, one of them mirrored or not, and before a shift.
 fn affine(i: u32, stretch: f64, far: f64) -> Affine {
     let number = |k: u32| f64::from(random(i, k)[0]);
     let axis = [number(1), number(2), number(3) + 1e-3];
@@ -173,10 +172,7 @@ fn instances_are_hit_as_copies() {
     let mut hits = 0;
     for round in 0..24_u32 {
         let (stretch, far) = ([1.0, 30.0, 1000.0][round as usize % 3], [0.5, 1.5, 400.0][round as usize / 3 % 3]);
-        let point = |i: u32, k: u32| {
-            let ([x, y], [z, _]) = (random(900 * round + i, 2 * k), random(900 * round + i, 2 * k + 1));
-            [x, y, z]
-        };
+        let point = |i: u32, k: u32| point(900 * round + i, k);
         let triangle = |i: u32| {
             let center = point(i, 0);
             [1, 2, 3].map(|k| std::array::from_fn(|a| 0.4 * center[a] + 0.2 * point(i, k)[a]))
@@ -236,15 +232,9 @@ fn instances_are_hit_as_copies() {
     assert!(hits > 2000, "{hits} of 8,192 rays hit");
 }
 
-/// Origin and direction.
-type Ray = ([f32; 3], [f32; 3]);
-
 /// Distance and primitive of the nearest hit of each ray.
 fn found(bvh: &Bvh, rays: &[Ray]) -> Vec<(f32, PrimitiveId)> {
-    let axis =
-        |p: usize, a: usize, of: fn(&Ray) -> [f32; 3]| f32x8::from(std::array::from_fn(|i| of(&rays[8 * p + i])[a]));
-    let lanes = |p: usize, of: fn(&Ray) -> [f32; 3]| Vec3::new(axis(p, 0, of), axis(p, 1, of), axis(p, 2, of));
-    let packets: Vec<_> = (0..8).map(|p| bvh.rays(lanes(p, |ray| ray.0), lanes(p, |ray| ray.1))).collect();
+    let packets = packets(bvh, rays);
     let mut hits = [Hits::none(f32x8::splat(f32::INFINITY)); 8];
     bvh.closest(&packets, &[<f32x8 as Real>::Mask::splat(true); 8], &mut hits, &mut Scratch::default());
     (0..64).map(|i| (hits[i / 8].distance.lane(i % 8), hits[i / 8].primitives.lane(i % 8))).collect()
@@ -268,10 +258,7 @@ fn identical_triangles_build() {
 fn huge_triangles_build() {
     for scale in [1e15_f32, 1e17, 1e19, 1e20, 1e30, 3e38] {
         for count in [9, 20, 30, 100, 40_000] {
-            let corner = |i: u32, k: u32| {
-                let ([x, y], [z, _]) = (random(i, 2 * k), random(i, 2 * k + 1));
-                [x, y, z].map(|x| x * scale)
-            };
+            let corner = |i: u32, k: u32| point(i, k).map(|x| x * scale);
             let triangles: Vec<_> = (0..count).map(|i| [0, 1, 2].map(|k| corner(i, k))).collect();
             let bvh = tree(&triangles);
             let mut found: Vec<u32> = bvh.order().to_vec();
@@ -290,10 +277,6 @@ fn huge_triangles_build() {
 
 /// 60,000 triangles: a sheet, 20,000 coincident ones, and some that are distant and large.
 fn many() -> Vec<[[f32; 3]; 3]> {
-    let point = |i: u32, k: u32| {
-        let ([x, y], [z, _]) = (random(i, 2 * k), random(i, 2 * k + 1));
-        [x, y, z]
-    };
     let near = |i: u32, center: [f32; 3], size: f32| {
         [1, 2, 3].map(|k| std::array::from_fn(|a| center[a] + size * point(i, k)[a]))
     };

@@ -1,6 +1,6 @@
 //! Mirrors, textures and smooth normals of surfaces, against closed forms.
 
-use crate::kit::{ALBEDO, BLACK, MATT, exactly, film, narrow, pixel, settings, world};
+use crate::kit::{ALBEDO, BLACK, MATT, exactly, film, list, narrow, pixel, settings, world};
 use etendue_oracle::{V3, along, cross, dot, unit};
 use etendue_render::film::compare::Comparison;
 use etendue_render::film::image::Picture;
@@ -94,8 +94,7 @@ fn weights() -> V3 {
     parts.map(|part| part / parts.iter().sum::<f64>())
 }
 fn mesh(parameters: &str) -> String {
-    let points: Vec<_> = CORNERS.iter().flatten().map(f64::to_string).collect();
-    format!("Shape \"trianglemesh\" \"point3 P\" [{}] {parameters}\n", points.join(" "))
+    format!("Shape \"trianglemesh\" \"point3 P\" [{}] {parameters}\n", list(&CORNERS))
 }
 fn sun(to: V3) -> String {
     let [x, y, z] = to;
@@ -155,8 +154,7 @@ fn smooth_normals_are_interpolated() {
         ("above the flat surface", "1 5 2", [3.0, 0.2, 0.0], [[-1.0, 1.0, 0.0]; 3], 0.0),
     ] {
         println!("{what}: {truth}");
-        let list: Vec<_> = normals.as_flattened().iter().map(f64::to_string).collect();
-        let surface = mesh(&format!("\"normal N\" [{}]", list.join(" ")));
+        let surface = mesh(&format!("\"normal N\" [{}]", list(&normals)));
         exactly(&seen(camera, &format!("{}{MATT}{surface}", sun(to))), [truth; 3]);
     }
 }

@@ -101,29 +101,6 @@ fn write_kinds(folder: &Folder) {
     }
 }
 
-/// Prints the table of all rows, and writes their files to the folder that `ETENDUE_TABLE` names:
-/// `ETENDUE_TABLE=rows cargo test -p etendue-render-tests -- the_table --ignored --nocapture`.
-#[test]
-#[ignore = "prints and writes"]
-fn the_table_of_values() {
-    let folder = std::path::PathBuf::from(std::env::var_os("ETENDUE_TABLE").expect("ETENDUE_TABLE names a folder"));
-    std::fs::create_dir_all(&folder).unwrap();
-    let files = Folder::new();
-    write_files(&files);
-    for file in std::fs::read_dir(files.root()).unwrap() {
-        let path = file.unwrap().path();
-        std::fs::copy(&path, folder.join(path.file_name().unwrap())).unwrap();
-    }
-    let rows = all_rows();
-    println!("file | what | right | auto | solid-angle | mis-power | difference");
-    let lines: Vec<Result<String, String>> =
-        rows.par_iter().enumerate().map(|(number, row)| row.line(number, &folder)).collect();
-    for line in &lines {
-        println!("{}", line.as_ref().unwrap_or_else(|error| error));
-    }
-    assert!(lines.iter().all(Result::is_ok) && lines.len() >= 250, "{} rows", lines.len());
-}
-
 fn all_rows() -> Vec<Row> {
     let tables = [
         deltas::rows(),

@@ -1,4 +1,4 @@
-//! Bodies of the fuzz targets of the renderer, scenes, images, parts of images, certificates, visible parts, daylight and lights that emit
+//! Bodies of the fuzz targets of the renderer, scenes, images, certificates, visible parts, daylight and lights that emit
 //! other than evenly, and of the C interface. `tests/seeds.rs` runs the same functions without a fuzzer.
 
 mod c_interface;
@@ -6,7 +6,6 @@ mod certificates;
 mod daylight;
 mod emitters;
 mod occlusion;
-mod part;
 
 pub use c_interface::c_interface;
 pub use certificates::certificates;
@@ -17,7 +16,6 @@ use etendue_render::film::compare::Comparison;
 use etendue_render::scene::texture::{Mapping, Picture, Texture, Wrap};
 use etendue_scene::image::{self as images, Encoding};
 pub use occlusion::occlusion;
-pub use part::part;
 use std::path::Path;
 
 /// Any text, and any glTF file, gives a scene, or an error with file and line, but never a panic; and a scene that was read can be built.

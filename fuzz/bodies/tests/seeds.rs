@@ -49,10 +49,6 @@ fn images() {
     damaged("image", files::image, cases(200, 2000));
 }
 #[test]
-fn parts() {
-    damaged("part", files::part, cases(100, 1000));
-}
-#[test]
 fn certificates() {
     damaged("certificates", files::certificates, cases(3000, 30_000));
 }
@@ -97,7 +93,6 @@ fn c_interface() {
 fn many_files() {
     damaged("scene", files::scene, 500_000);
     damaged("image", files::image, 500_000);
-    damaged("part", files::part, 500_000);
 }
 #[test]
 #[ignore = "a million calls for each seed: some minutes"]

@@ -136,31 +136,4 @@ impl ImageOptions {
     pub(crate) fn stem(&self) -> &OsStr {
         Path::new(&self.scene).file_stem().unwrap_or(&self.scene)
     }
-
-    /// The arguments that give these options.
-    pub(crate) fn arguments(&self) -> Vec<OsString> {
-        let mut all = vec![self.scene.clone()];
-        let mut add =
-            |option: &str, value: Option<String>| all.extend(value.map(|value| format!("--{option}={value}").into()));
-        add("spp", self.spp.map(|spp| spp.to_string()));
-        add("technique", (self.technique != Technique::Auto).then(|| self.technique.name().to_owned()));
-        add("choice", (self.choice != ChoiceBy::Auto).then(|| self.choice.name().to_owned()));
-        add("depth", (self.depth != Settings::DEPTH).then(|| self.depth.to_string()));
-        add("sampler", self.sampler.map(|sampler| sampler.name().to_owned()));
-        add("sensor", (self.sensor != Sensor::Radiance).then(|| self.sensor.name().to_owned()));
-        add("sets", self.sets.map(|sets| sets.to_string()));
-        add("size", self.size.map(|(width, height)| format!("{width}x{height}")));
-        add("seed", (self.seed != 0).then(|| self.seed.to_string()));
-        add("threads", (self.threads != 0).then(|| self.threads.to_string()));
-        if let Some(sky) = &self.environment {
-            all.extend(["--environment".into(), sky.into()]);
-        }
-        for (option, value) in [("--camera", &self.camera), ("--scene", &self.scene_of_file)] {
-            all.extend(value.as_ref().map(|value| format!("{option}={value}").into()));
-        }
-        if self.strict {
-            all.push("--strict".into());
-        }
-        all
-    }
 }

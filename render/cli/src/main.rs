@@ -1,15 +1,13 @@
 //! The renderer's command line: reads the arguments, runs a command and sets the exit code.
 
 mod beside;
+mod command_line;
 mod compare;
 mod hints;
 mod image;
 mod interrupt;
 mod list;
-mod merge;
 mod output;
-mod part;
-mod plan;
 mod processor;
 mod progress;
 mod render;
@@ -44,14 +42,6 @@ enum Command {
     /// Example: `etendue view studio --technique area` shows it by sampling points of the lamps; the page switches techniques, compares
     /// them and turns the camera.
     View(view::Options),
-    /// Print the commands that render an image in parts, on any number of machines
-    ///
-    /// Example: `etendue plan quads --spp 4096 -o quads.exr > quads.plan`, then `sh quads.plan`.
-    Plan(plan::Options),
-    /// Put parts of an image together
-    ///
-    /// Example: `etendue merge -o quads.exr quads.parts` puts together what `etendue plan` had rendered.
-    Merge(merge::Options),
     /// Compare an image with a reference of the same size
     ///
     /// Example: `etendue compare reference.exr image.exr` prints the error, and whether the difference is more than noise.
@@ -115,8 +105,6 @@ fn run(command: Command) -> Result<(), Box<dyn Error>> {
     match command {
         Command::Render(options) => render::run(&options)?,
         Command::View(options) => view::run(&options)?,
-        Command::Plan(options) => plan::run(&options)?,
-        Command::Merge(options) => merge::run(&options)?,
         Command::Compare(options) => compare::run(&options)?,
         Command::Chart(options) => chart::run(&options, &command_line())?,
         Command::List { file: Some(file), scene } => list::file(&file, scene.as_deref())?,

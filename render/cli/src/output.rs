@@ -1,11 +1,10 @@
 //! The files that `render` writes: their names, the checks before rendering, and their contents.
 
 use crate::interrupt::Interrupt;
-use etendue_render::drive::parts::PieceFile;
 use etendue_render::film::Film;
 use etendue_render::film::claim::Claim;
 use etendue_render::scene::{Input, Scene};
-use etendue_render::{Identity, drive::parts, film::files, film::image};
+use etendue_render::{Identity, film::files, film::image};
 use std::ffi::OsStr;
 use std::fs::File;
 use std::io;
@@ -51,14 +50,13 @@ fn check_own(exr: &Path, scene: &Scene, path: &Path) -> Result<(), String> {
         return Ok(());
     }
     let other = SCENES.iter().map(|end| path.with_extension(end)).find(|other| other != path && other.exists());
-    let own = PieceFile::open(exr).ok().map(|file| file.header.identity);
-    let what = match (own, other) {
-        (Some(own), _) if own.digest == scene.digest() => return Ok(()),
-        (Some(own), None) if own.scene == scene.name => return Ok(()),
-        (Some(own), Some(other)) if own.scene == scene.name => {
+    let what = match (Identity::scene_of(exr), other) {
+        (Some([_, digest]), _) if digest == scene.digest() => return Ok(()),
+        (Some([name, _]), None) if name == scene.name => return Ok(()),
+        (Some([name, _]), Some(other)) if name == scene.name => {
             format!("an image that may be of {} instead of {}", other.display(), path.display())
         }
-        (Some(own), _) => format!("an image of {}", own.scene),
+        (Some([name, _]), _) => format!("an image of {name}"),
         (None, _) => "no image of this scene".to_owned(),
     };
     Err(format!("{}: this file has {what}, and is not replaced unasked: choose a name with -o", exr.display()))
@@ -143,7 +141,7 @@ impl Output {
     /// # Errors
     /// Fails if a file cannot be written; the message says what has been written.
     pub(crate) fn write(&self, film: &Film, identity: &Identity) -> Result<(), String> {
-        parts::write_image(&self.exr, identity, film.pixels.clone()).map_err(|error| error.to_string())?;
+        identity.write_image(&self.exr, &film.pixels).map_err(|error| error.to_string())?;
         let factor = self.brightness / identity.exposure;
         let written = if factor == 1.0 {
             image::write_png(&self.png, film)

@@ -1,12 +1,11 @@
 //! `etendue render`: renders a scene with a given number of samples, or until its error or the time is what was asked for.
 
 use crate::beside::{Beside, Cost};
+use crate::command_line::line;
 use crate::hints::{hint, wasted, windows};
 use crate::image::ImageOptions;
 use crate::interrupt::Interrupt;
 use crate::output::{Output, grouped, percent};
-use crate::part::{self, PartOptions};
-use crate::plan::{line, words};
 use crate::progress::bar;
 use clap::Args;
 use etendue_laboratory::cost::median;
@@ -30,19 +29,17 @@ pub(crate) struct Options {
     /// Write the image to this EXR file, and a PNG beside it [default: the scene's film filename, or SCENE.exr]
     #[arg(short, long, value_name = "OUT.exr")]
     output: Option<PathBuf>,
-    #[command(flatten)]
-    part: PartOptions,
     /// Refine the image until this many seconds have passed since the start of the first pass
-    #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with_all = ["spp", "repeat", "parts"])]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with_all = ["spp", "repeat"])]
     time: Option<f64>,
     /// Refine the image until its estimated error (relative RMS) is at most this, such as 0.01 or 1%
-    #[arg(long, value_name = "TARGET", value_parser = fraction, conflicts_with_all = ["spp", "repeat", "parts"])]
+    #[arg(long, value_name = "TARGET", value_parser = fraction, conflicts_with_all = ["spp", "repeat"])]
     error: Option<f64>,
     /// Render the same image this many times, for timing
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole::<u32>(1..=1_000_000), conflicts_with = "parts")]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole::<u32>(1..=1_000_000))]
     repeat: u32,
     /// Render the scene by this technique too, in the same time, and write a PNG whose left half is that image
-    #[arg(long, value_name = "TECHNIQUE", value_parser = named::<Technique>(&Technique::NAMES), hide_possible_values = true, conflicts_with_all = ["parts", "repeat", "json"])]
+    #[arg(long, value_name = "TECHNIQUE", value_parser = named::<Technique>(&Technique::NAMES), hide_possible_values = true, conflicts_with_all = ["repeat", "json"])]
     beside: Option<Technique>,
     /// Make the PNG brighter by this many stops, each a factor of 2; the EXR file has radiance [default: the film's iso and shutter]
     #[arg(long, value_name = "STOPS", default_value_t = 0.0, value_parser = stops, hide_default_value = true)]
@@ -109,8 +106,8 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let interrupt = Interrupt::new()?;
     let start = Instant::now();
     let image = &options.image;
-    // what is wrong with it should not be found after a scene was read; a part makes its folder
-    if let Some(path) = options.output.as_ref().filter(|_| !options.part.is_asked()) {
+    // what is wrong with it should not be found after a scene was read
+    if let Some(path) = &options.output {
         Output::of(path.clone(), &[])?;
     }
     let (mut scene, settings) = image.load()?;
@@ -120,9 +117,6 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     match &plan {
         None => image.check(&settings)?,
         Some(plan) => plan.check().map_err(|what| format!("--{}: {what}", goal.option()))?,
-    }
-    if let Some(content) = options.part.content(&settings)? {
-        return part::run(image, &content, options.output.as_deref(), scene, settings, options.json, &interrupt);
     }
     let mut output = Output::new(options.output.as_deref(), &scene, Path::new(&image.scene))?;
     output.brightness = scene.film.exposure * options.exposure.exp2();
@@ -397,12 +391,12 @@ fn next_steps(options: &Options, done: &Image, chosen: Technique) -> io::Result<
     let scene = &options.image.scene;
     let program = std::env::args_os().next().unwrap_or_else(|| "etendue".into());
     let other = if chosen == Technique::Area { Technique::Auto } else { Technique::Area }.name();
-    let compare = words([&program, &"render", scene, &"--beside", &other]);
+    let compare = line(&[&program, &"render", scene, &"--beside", &other]);
     let compare = options.beside.is_none().then_some(("compare", compare));
-    let measure = ("measure", words([&program, &"chart", scene, &"--quick"]));
-    for (what, command) in compare.into_iter().chain([measure, ("watch", words([&program, &"view", scene]))]) {
+    let measure = ("measure", line(&[&program, &"chart", scene, &"--quick"]));
+    for (what, command) in compare.into_iter().chain([measure, ("watch", line(&[&program, &"view", scene]))]) {
         write!(out, "{:9}", format!("{what}:"))?;
-        out.write_all(&line(&command))?;
+        out.write_all(&command)?;
         writeln!(out)?;
     }
     Ok(())

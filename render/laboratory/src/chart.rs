@@ -21,8 +21,8 @@ use crate::options::{out, say};
 use crate::progress::{bar, duration};
 use budget::{Extent, Trial};
 use clock::Clock;
+use etendue_render::Sampler;
 use etendue_render::film::files;
-use etendue_render::{Sampler, drive::identity};
 use measure::{ChartedScene, Key, Measurement, Plan, inapplicable};
 pub use options::Options;
 pub use outcome::Outcome;
@@ -138,7 +138,7 @@ pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box
 
     // measurements of another build do not count; a new commit does not matter as long as the program stays the same
     let kept: Vec<_> = facts.iter().filter(|(name, _)| *name != "commit").collect();
-    let circumstances = format!("{kept:?}{}", identity::build());
+    let circumstances = format!("{kept:?}{}", crate::hash::build());
     let finished = scenes.into_iter().zip(&extent.sizes);
     let scenes = pool.install(|| {
         finished

@@ -1,4 +1,4 @@
-//! The report of `etendue chart` is read at a glance: a line per scene, the best sampler of each technique, bars in order, notes last.
+//! The report of `etendue chart` is read at a glance: a line per scene, the best sampler of each technique, series in order, notes last.
 
 use etendue_laboratory::chart::charts::{self, Against, Measure};
 use etendue_laboratory::chart::clock::Clock;
@@ -179,11 +179,11 @@ fn one_series_of_each_technique_is_shown_at_first() {
     let outcome = outcome(&["quads"]);
     let page = page(&outcome);
     let parts: Vec<&str> = page.split("<figure").skip(1).collect();
-    // three errors against four costs, and seconds
-    assert_eq!(parts.len(), 13);
+    // three errors against four costs
+    assert_eq!(parts.len(), 12);
     let at_first = |part: &&&str| !part.starts_with(" class=\"off\"");
-    assert_eq!(parts.iter().filter(at_first).count(), 3);
-    let table = parts[12].split_once("<table>").unwrap().1;
+    assert_eq!(parts.iter().filter(at_first).count(), 2);
+    let table = parts[11].split_once("<table>").unwrap().1;
     for part in parts.iter().map(|p| p.split("</figure>").next().unwrap()).chain([table]) {
         let all = series(part);
         assert_eq!(all.len(), 9, "{all:?}");
@@ -194,31 +194,12 @@ fn one_series_of_each_technique_is_shown_at_first() {
     // the same in files, which hold nothing else
     let summary = &outcome.summaries[0];
     let error = charts::error(summary, Against::Time, Measure::Mse);
-    for figure in [error.unwrap(), charts::seconds(summary).unwrap()] {
-        assert_eq!(series(&figure.drawing.file()).len(), 3);
-        assert!(!figure.drawing.file().contains(">area, independent</text>"));
-    }
+    let file = error.unwrap().drawing.file();
+    assert!(series(&file).len() == 3 && !file.contains(">area, independent</text>"));
     assert!(page.contains("data-all"), "a button shows the rest");
-}
-
-#[test]
-fn bars_are_sorted_and_notes_come_last() {
-    let outcome = outcome(&["quads"]);
-    let page = page(&outcome);
-    let summary = &outcome.summaries[0];
-    let part = |title: &str| {
-        let figure = page.split("<figure").find(|p| p.contains(title)).unwrap();
-        figure.split("</figure>").next().unwrap()
-    };
-    let value =
-        |id: &str, f: &dyn Fn(usize) -> f64| f(summary.series.iter().position(|s| charts::id(s) == id).unwrap());
-    let to_1_percent = |i: usize| summary.series[i].reaches[1].unwrap().seconds;
-    let bars = series(part(": seconds to")).iter().map(|s| value(s.0, &to_1_percent)).collect::<Vec<_>>();
-    assert!(bars.len() == 9 && bars.is_sorted(), "{bars:?}");
-    // rows are stacked from the top without gaps, hidden ones aside
-    let rows: Vec<&str> = part(": seconds to").split("translate(0 ").skip(1).collect();
-    let places: Vec<i32> = rows.iter().map(|r| r[..r.find(')').unwrap()].parse().unwrap()).collect();
-    assert!(places.is_sorted() && places.last() <= Some(&(3 * places.iter().find(|y| **y > 0).unwrap())), "{places:?}");
+    // the table is in the order of the seconds to an error of 1 %, and notes come last
+    let rows = series(table).into_iter().map(|s| summary.series.iter().position(|t| charts::id(t) == s.0).unwrap());
+    assert!(rows.eq(summary.ranking.iter().copied()));
     let at = |text: &str| page.rfind(text).unwrap();
     assert!(at("a remark at the end") > at("</figure>") && at("a remark at the end") > at("How this was measured"));
 }

@@ -1,7 +1,7 @@
 //! Collects the surfaces of a scene in world space: checks and orients them, and rounds them once to f32.
 
 use crate::lamps::Lamps;
-use crate::material_key::words;
+use crate::material_table::MaterialTable;
 use crate::message::Notes;
 use crate::shape_attributes::ShapeAttributes;
 use crate::transform::{Transform, add, cross, dot, length, sub};
@@ -9,12 +9,11 @@ use crate::vertices::{Vertex, Vertices};
 use etendue_render::geometry::{Affine, Geometry, Instance, bounds_of};
 use etendue_render::scene::intensity::Intensity;
 use etendue_render::scene::light_picture::affine;
-use etendue_render::scene::texture::{Mapping, Mask, Texture};
+use etendue_render::scene::texture::Mapping;
 use etendue_render::scene::{
-    CameraSettings, Corners, DeltaLight, Details, Emission, Environment, FilmSettings, Input, Material, Message,
-    NormalMap, Scene, Shape, Varying, coincidences,
+    CameraSettings, Corners, DeltaLight, Details, Emission, Environment, FilmSettings, Input, Message, Scene, Shape,
+    coincidences,
 };
-use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
@@ -25,20 +24,13 @@ const FLAT: f64 = 1.0 - 1e-6;
 /// The surfaces and materials of a scene.
 #[derive(Debug, Default)]
 pub(super) struct Builder {
-    pub(super) materials: Vec<Material>,
+    pub(super) materials: MaterialTable,
     pub(super) triangles: Vec<[[f32; 3]; 3]>,
     pub(super) triangle_materials: Vec<u32>,
-    pub(super) varying: Vec<Varying>,
     pub(super) details: Details,
     pub(super) shapes: Vec<Shape>,
     pub(super) lamps: Lamps,
     pub(super) notes: Notes,
-    /// By [`words`], and whether they are seen from both sides.
-    material_index: HashMap<([u32; 13], bool), u32>,
-    /// Materials with holes: for each the index of the one without, and the mask.
-    masks: BTreeMap<u32, (u32, Mask)>,
-    /// Materials that are seen from the front alone.
-    single_sided: BTreeSet<u32>,
     objects: Vec<Object>,
     instances: Vec<(u32, Transform)>,
     /// Number of triangles of all instances.
@@ -92,83 +84,6 @@ pub(super) fn round([x, y, z]: [f64; 3]) -> [f32; 3] {
 }
 
 impl Builder {
-    /// The index of the material, which is added if it is new.
-    pub(super) fn material(&mut self, material: Material) -> u32 {
-        self.material_of_sides(material, true)
-    }
-
-    /// The index of a material that is seen from both sides, or from the front alone.
-    pub(super) fn material_of_sides(&mut self, material: Material, two_sided: bool) -> u32 {
-        *self.material_index.entry((words(material), two_sided)).or_insert_with(|| {
-            self.materials.push(material);
-            let index = (self.materials.len() - 1) as u32;
-            if !two_sided {
-                self.single_sided.insert(index);
-            }
-            index
-        })
-    }
-
-    /// A material that varies, or a constant one if its textures do not vary.
-    pub(super) fn vary(&mut self, varying: Varying) -> Material {
-        varying.constant().unwrap_or_else(|| self.varied(varying))
-    }
-
-    /// A material that varies, even if its textures do not.
-    pub(super) fn varied(&mut self, varying: Varying) -> Material {
-        self.varying.push(varying);
-        Material::Varying((self.varying.len() - 1) as u32)
-    }
-
-    /// A material whose normals vary.
-    pub(super) fn relief(&mut self, material: Material, normals: NormalMap) -> Material {
-        let under = match material {
-            Material::Varying(index) => self.varying[index as usize].clone(),
-            other => Varying::Constant(other),
-        };
-        self.varied(Varying::Relief(Arc::new((under, normals))))
-    }
-
-    /// A material, or the mean of one that varies.
-    pub(super) fn mean(&self, material: Material) -> Material {
-        match material {
-            Material::Varying(index) => self.varying[index as usize].mean(),
-            other => other,
-        }
-    }
-
-    /// The index of a material with holes, by that of the one without.
-    pub(super) fn masked(&mut self, whole: u32, mask: Mask) -> u32 {
-        let known = self.masks.iter().rev().find(|(_, (other, known))| *other == whole && *known == mask);
-        known.map(|(index, _)| *index).unwrap_or_else(|| {
-            let index = self.materials.len() as u32;
-            self.materials.push(self.materials[whole as usize]);
-            if self.single_sided.contains(&whole) {
-                self.single_sided.insert(index);
-            }
-            self.masks.insert(index, (whole, mask));
-            index
-        })
-    }
-
-    /// A material that stands for one that is not known yet.
-    pub(super) fn promise(&mut self) -> Material {
-        self.varied(Varying::Diffuse(Texture::number(0.5)))
-    }
-
-    /// Puts a material where a promise stands for it.
-    pub(super) fn keep(&mut self, promise: Material, material: Material) {
-        self.materials.iter_mut().filter(|other| **other == promise).for_each(|other| *other = material);
-    }
-
-    /// Whether texture coordinates matter for a material.
-    pub(super) fn varies(&self, material: u32) -> bool {
-        let of = &self.materials[material as usize];
-        matches!(of, Material::Varying(_))
-            || of.roughness().is_some_and(|roughness| !roughness.is_isotropic())
-            || self.masks.contains_key(&material)
-    }
-
     /// Begins an object: what is added from now on is not part of the scene. Returns what was added before.
     pub(super) fn begin_object(&mut self) -> Self {
         let inner = Self { is_object: true, ..Self::default() };
@@ -191,10 +106,6 @@ impl Builder {
     /// Takes what objects and scenes share from another builder.
     fn share(&mut self, from: &mut Self) {
         std::mem::swap(&mut self.materials, &mut from.materials);
-        std::mem::swap(&mut self.material_index, &mut from.material_index);
-        std::mem::swap(&mut self.masks, &mut from.masks);
-        std::mem::swap(&mut self.single_sided, &mut from.single_sided);
-        std::mem::swap(&mut self.varying, &mut from.varying);
         std::mem::swap(&mut self.notes, &mut from.notes);
     }
 
@@ -343,20 +254,21 @@ impl Builder {
         if !emits && delta_lights.is_empty() && environment.is_none() {
             self.notes.warn(warning(&format!("{DARK}: the image will be black; --environment FILE adds a sky")));
         }
+        let materials = self.materials;
         let name = Path::new(file).file_stem().map(|stem| stem.to_string_lossy().into_owned());
         Scene {
             name: name.unwrap_or_else(|| file.to_owned()),
             camera,
             film,
             pixel_samples,
-            materials: self.materials,
+            materials: materials.all,
             triangles: self.triangles,
             triangle_materials: self.triangle_materials,
             objects,
             instances,
-            masks: self.masks.into_iter().map(|(material, (_, mask))| (material, mask)).collect(),
-            varying: self.varying,
-            single_sided: self.single_sided.into_iter().collect(),
+            masks: materials.masks.into_iter().map(|(material, (_, mask))| (material, mask)).collect(),
+            varying: materials.varying,
+            single_sided: materials.single_sided.into_iter().collect(),
             details: self.details.into(),
             shapes: self.shapes.into(),
             pictures: self.lamps.pictures.into(),
@@ -502,7 +414,7 @@ impl Builder {
         let has_normals = normals.iter().all(|n| *n != [0.0; 3]);
         let least = FLAT * length(flat);
         let is_smooth = has_normals && normals.iter().any(|n| dot(*n, flat).abs() < least);
-        if is_smooth || self.varies(surface.material) {
+        if is_smooth || self.materials.varies(surface.material) {
             let smooth = [round(normals[0]), round(normals[1]), round(normals[2])];
             let single = |[u, v]: [f64; 2]| [u as f32, v as f32];
             self.details.of_triangles.resize(self.triangles.len(), Details::NONE);

@@ -20,6 +20,7 @@ pub mod image;
 mod lamps;
 pub mod list;
 mod material_key;
+mod material_table;
 mod message;
 mod nearest;
 #[cfg(feature = "pbrt")]

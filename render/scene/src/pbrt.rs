@@ -7,6 +7,7 @@ mod daylight;
 mod directed;
 mod film_and_camera;
 mod generated;
+mod given;
 mod ies;
 mod includes;
 mod inputs;

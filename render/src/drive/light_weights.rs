@@ -8,7 +8,7 @@ use crate::scene::area::Area;
 use std::borrow::Cow;
 
 /// Greatest number of lights whose variances the adaptive sampler measures separately.
-pub const APART: usize = 8;
+pub(super) const APART: usize = 8;
 
 /// The weights of the lights in the pixels of an area, row by row.
 pub(super) struct LightWeights<'a> {

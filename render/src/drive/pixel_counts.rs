@@ -15,7 +15,7 @@ use super::second_sets::{self, Checks};
 use super::tile::TileRenderer;
 use crate::film::Pixel;
 use crate::film::sums::Moments;
-use crate::scene::area::{self, Area, crop};
+use crate::scene::area::{self, Area};
 use crate::settings::Settings;
 use libm::pow;
 
@@ -75,33 +75,30 @@ impl SamplePlan {
 }
 
 /// How many samples each pixel of a rectangle receives after the pilot, and what the pilot found.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PixelCounts {
+pub(super) struct PixelCounts<'a> {
     /// The pixels [x0, y0, x1, y1).
-    pub area: Area,
+    pub(super) area: Area,
+    pilot: &'a [Statistics],
     /// Packets of each pixel in each set, with those of the pilot.
-    pub packets: Vec<u32>,
+    packets: Vec<u32>,
     /// Number of lights among which the samples are shared by weight; 0 if they are not.
-    pub lights: usize,
+    lights: usize,
     /// The weight of each light at each pixel.
-    pub weights: Vec<f32>,
+    weights: Vec<f32>,
     /// What the pilot tells of the variance of each pixel: that of a set of n samples is about proportional to this and to n^−1.5.
-    pub squares: Vec<f32>,
+    squares: Vec<f32>,
     /// Samples per set of each light in the pilot.
-    pub begun: Vec<[u32; APART]>,
-    /// Sum of each set of the pilot.
-    pub sums: Vec<[[f64; 3]; 4]>,
+    begun: Vec<[u32; APART]>,
     /// The sum of the variances of all pixels of the image, as the pilot tells them, but for a common factor.
-    pub expected: f64,
+    expected: f64,
 }
 
-impl PixelCounts {
+impl<'a> PixelCounts<'a> {
     /// From the pilot of an area, whose pixels share its samples. For the image, that is the whole.
     ///
     /// # Panics
     /// Panics if the pilot is not one of the area's size.
-    #[must_use]
-    pub fn new(settings: &Settings, area: Area, pilot: &[Statistics]) -> Self {
+    pub(super) fn new(settings: &Settings, area: Area, pilot: &'a [Statistics]) -> Self {
         assert_eq!(pilot.len(), area::count(area));
         let plan = SamplePlan::new(settings).with_pilot(pilot[0].packets);
         let (packets, weights) = count_packets(pilot, area[2] - area[0], &plan);
@@ -117,21 +114,7 @@ impl PixelCounts {
             weights: of,
             squares,
             begun: pilot.iter().map(|pixel| pixel.taken).collect(),
-            sums: pilot.iter().map(|pixel| pixel.sums).collect(),
-        }
-    }
-    /// The same for the pixels of a rectangle within the area.
-    #[must_use]
-    pub fn crop(&self, area: Area) -> Self {
-        Self {
-            area,
-            packets: crop(&self.packets, self.area, area, 1),
-            lights: self.lights,
-            weights: crop(&self.weights, self.area, area, self.lights),
-            squares: crop(&self.squares, self.area, area, 1),
-            begun: crop(&self.begun, self.area, area, 1),
-            sums: crop(&self.sums, self.area, area, 1),
-            expected: self.expected,
+            pilot,
         }
     }
     /// The weights of the lights, if samples are shared by weight.
@@ -188,7 +171,7 @@ impl PixelCounts {
                 let sum = std::array::from_fn(|k| a[k] + b[k]);
                 (count, Moments { sum, ..Moments::default() })
             };
-            Pixel::of_sets(self.sums[index].iter().zip(&rest.sums).take(sets as usize).map(both), false)
+            Pixel::of_sets(self.pilot[index].sums.iter().zip(&rest.sums).take(sets as usize).map(both), false)
         };
         area::pixels(tile).zip(rest).map(of).collect()
     }

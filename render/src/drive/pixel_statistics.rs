@@ -9,25 +9,25 @@ use etendue::Real;
 use etendue::estimate::Welford;
 
 /// Statistics of a range of the samples of a pixel.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Statistics {
+#[derive(Clone, Copy)]
+pub(super) struct Statistics {
     /// Sum of each set.
-    pub sums: [[f64; 3]; 4],
+    pub(super) sums: [[f64; 3]; 4],
     /// Packets in each set.
-    pub packets: u32,
+    pub(super) packets: u32,
     /// Variance of the means of four samples each, summed over the channels; for samples that are allocated to at most `APART` lights, of
     /// what the camera sees directly.
-    pub variance: f64,
+    pub(super) variance: f64,
     /// The part of the samples that cause the variance: 1 if all differ alike, 1/n if one of n does.
-    pub part: f32,
+    pub(super) part: f32,
     /// Number of lights to which the samples were allocated; 0 if they were not, or if there are more than `APART`.
-    pub lights: usize,
+    pub(super) lights: usize,
     /// Σ(xᵢ−xᵢ₊₁)² over pairs of successive samples of each light, per set.
-    pub spread: [f32; APART],
+    pub(super) spread: [f32; APART],
     /// Number of these pairs per set.
-    pub pairs: [u32; APART],
+    pub(super) pairs: [u32; APART],
     /// Number of samples of each light per set.
-    pub taken: [u32; APART],
+    pub(super) taken: [u32; APART],
 }
 
 impl Default for Statistics {

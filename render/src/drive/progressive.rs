@@ -5,7 +5,6 @@
 //! never on the samples. The number of samples of a pass, and the decision to stop, depend on the time, or on the error of the whole
 //! image so far; to that a pixel contributes no more than its share in the sum over all pixels.
 
-use super::view::{Content, Samples};
 use super::world::World;
 use crate::bvh::RayCount;
 use crate::film::claim::{Claim, Foreseen, why_unknown};
@@ -219,12 +218,11 @@ impl Refined {
         let (settings, began) = (self.plan.settings, Instant::now());
         let of_pass =
             Settings { spp, sampler: self.plan.sampler_of(spp), seed: seed(settings.seed, self.index), ..settings };
-        let (content, rays) = world.view(&of_pass).stopped_by(stop).render(area, Samples::All, progress);
+        let (pixels, rays) = world.view(&of_pass).stopped_by(stop).render(area, progress);
         if stop.load(Ordering::Relaxed) {
             return None;
         }
         self.index += 1;
-        let Content::Pixels(pixels) = content else { unreachable!("all samples make finished pixels") };
         let seconds = began.elapsed().as_secs_f64();
         self.pace = seconds / (f64::from(spp) * area::count(area) as f64);
         let pass = Pass { spp, sampler: of_pass.sampler, seed: of_pass.seed, seconds };

@@ -24,28 +24,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Greatest number of tiles that are looked at to bound what closed forms leave.
 const BOUNDED: usize = 16;
 
-/// Which samples of the pixels are rendered.
-#[derive(Clone, Debug)]
-pub enum Samples<'a> {
-    /// All of them.
-    All,
-    /// The pilot of [`Sampler::Adaptive`].
-    Pilot,
-    /// Those of [`Sampler::Adaptive`] that follow the pilot, for the area of the counts.
-    Rest(&'a PixelCounts),
-}
-
-/// What is known of each pixel of an area, row by row.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Content {
-    /// The finished pixels.
-    Pixels(Vec<Pixel>),
-    /// What the pilot found.
-    Pilot(Vec<Statistics>),
-    /// How many samples follow the pilot.
-    Counts(PixelCounts),
-}
-
 /// A world seen through a camera, with settings whose technique is fixed: for [`Technique::Auto`], a trial has found it. Nothing that a view
 /// returns depends on the number of threads.
 ///
@@ -121,9 +99,7 @@ impl View<'_> {
     fn try_tile(&self, way: TechniqueChoice, tile: Area, spp: u32) -> Tried {
         let render = |seed: u64| {
             let view = self.by(way, Settings { spp, seed, ..self.settings });
-            let (content, count) = view.render(tile, Samples::All, &|_| ());
-            let Content::Pixels(pixels) = content else { unreachable!("all samples make finished pixels") };
-            (pixels, count)
+            view.render(tile, &|_| ())
         };
         let [(first, count), (second, _)] = SEEDS.map(render);
         let times = f64::from(self.settings.spp) / f64::from(spp);
@@ -232,56 +208,40 @@ impl View<'_> {
 
     /// Renders the image; calls `progress` with the number of newly finished pixels.
     pub fn image(&self, progress: &(dyn Fn(u64) + Sync)) -> (Film, RayCount) {
-        let (content, rays) = self.render(self.settings.whole(), Samples::All, progress);
-        let Content::Pixels(pixels) = content else { unreachable!("all samples make finished pixels") };
+        let (pixels, rays) = self.render(self.settings.whole(), progress);
         (Film { width: self.settings.width, height: self.settings.height, pixels }, rays)
     }
 
-    /// Renders some of the samples of an area, which must consist of [tiles](Settings::is_of_tiles); calls `progress` with the number of
-    /// pixels for which they are newly finished. All samples, and those after a pilot, return pixels. With [`Sampler::Adaptive`], the pixels
-    /// of the area share all samples among themselves, so that they differ from those of a larger area.
+    /// Renders the pixels of an area, which must consist of [tiles](Settings::is_of_tiles); calls `progress` with the number of newly finished
+    /// ones. With [`Sampler::Adaptive`], the pixels of the area share all samples among themselves, so that they differ from those of a larger
+    /// area.
     ///
     /// # Panics
-    /// Panics if the sampler has no such samples, or if the area does not consist of tiles.
-    pub fn render(&self, area: Area, samples: Samples, progress: &(dyn Fn(u64) + Sync)) -> (Content, RayCount) {
-        let settings = &self.settings;
-        let is_adaptive = settings.sampler == Sampler::Adaptive;
-        assert!(settings.is_of_tiles(area));
-        match samples {
-            Samples::All if is_adaptive => {
-                let (found, mut rays) = self.pilot(area, &|_| ());
-                let counts = PixelCounts::new(settings, area, &found);
-                let (mut content, more) = self.render(area, Samples::Rest(&counts), progress);
-                rays += more;
-                if let Content::Pixels(pixels) = &mut content {
-                    self.fill(pixels, &found);
-                }
-                (content, rays)
+    /// Panics if the area does not consist of tiles.
+    pub fn render(&self, area: Area, progress: &(dyn Fn(u64) + Sync)) -> (Vec<Pixel>, RayCount) {
+        assert!(self.settings.is_of_tiles(area));
+        let (pilot, (mut pixels, rays)) = match self.settings.sampler {
+            Sampler::Adaptive => {
+                let (pilot, first) = self.pilot(area);
+                let (pixels, mut rays) = self.rest(&PixelCounts::new(&self.settings, area, &pilot), progress);
+                rays += first;
+                (pilot, (pixels, rays))
             }
-            Samples::All => {
-                let (mut pixels, rays) = match settings.sampler {
-                    Sampler::Independent => self.pixels::<Moments>(area, progress),
-                    _ => self.pixels::<Sum>(area, progress),
-                };
-                self.fill(&mut pixels, &[]);
-                (Content::Pixels(pixels), rays)
-            }
-            Samples::Pilot => {
-                assert!(is_adaptive);
-                let (found, rays) = self.pilot(area, progress);
-                (Content::Pilot(found), rays)
-            }
-            Samples::Rest(counts) => {
-                assert!(is_adaptive && area == counts.area);
-                let (weights, plan) = (counts.weights(), self.plan());
-                let (pixels, rays) = self.tiles(area, &|renderer, tile| {
-                    let pixels = counts.rest(renderer, tile, weights.as_ref(), &plan);
-                    progress(pixels.len() as u64);
-                    pixels
-                });
-                (Content::Pixels(pixels), rays)
-            }
-        }
+            Sampler::Independent => (Vec::new(), self.pixels::<Moments>(area, progress)),
+            _ => (Vec::new(), self.pixels::<Sum>(area, progress)),
+        };
+        self.fill(&mut pixels, &pilot);
+        (pixels, rays)
+    }
+
+    /// Renders the samples that follow a pilot.
+    fn rest(&self, counts: &PixelCounts<'_>, progress: &(dyn Fn(u64) + Sync)) -> (Vec<Pixel>, RayCount) {
+        let (weights, plan) = (counts.weights(), self.plan());
+        self.tiles(counts.area, &|renderer, tile| {
+            let pixels = counts.rest(renderer, tile, weights.as_ref(), &plan);
+            progress(pixels.len() as u64);
+            pixels
+        })
     }
 
     /// Fills the pixels of tiles that have not begun, since the view was stopped: by the pilot as far as that was rendered. (When that is depends
@@ -306,13 +266,11 @@ impl View<'_> {
         SamplePlan::new(&self.settings).with_pilot(self.asked_of_a_pilot().unwrap_or(0))
     }
 
-    fn pilot(&self, area: Area, progress: &(dyn Fn(u64) + Sync)) -> (Vec<Statistics>, RayCount) {
+    fn pilot(&self, area: Area) -> (Vec<Statistics>, RayCount) {
         let SamplePlan { sets, pilot, .. } = self.plan();
         self.tiles(area, &|renderer, area| {
             renderer.begin(area);
-            let parts = renderer.parts(area, pilot, 0..sets, None, |_| [0, pilot]);
-            progress(parts.len() as u64);
-            parts
+            renderer.parts(area, pilot, 0..sets, None, |_| [0, pilot])
         })
     }
 

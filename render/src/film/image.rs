@@ -1,18 +1,21 @@
 //! Image files: EXR with the variance of the estimate, and PNG for viewing. No other module uses the exr and png crates.
 
-pub mod layer;
 mod size;
 
-pub use exr::prelude::Compression;
 pub use size::check_size;
 
-use super::files::{FileError, failed, replace};
+use super::files::{FileError, failed, open_file, replace};
 use super::pixels::{Film, Pixel, Second};
+use crate::scene::area::PlaceInImage;
 use exr::block::chunk::CompressedBlock;
-use exr::meta::attribute::IntegerBounds;
-use exr::prelude::{ReadChannels, ReadLayers};
-use layer::Numbers;
-use std::io::{BufWriter, Cursor};
+use exr::math::Vec2;
+use exr::meta::attribute::{AttributeValue, IntegerBounds, Text};
+use exr::prelude::{
+    AnyChannel, AnyChannels, Blocks, Compression, Encoding, FlatSamples, Image, ImageAttributes, Layer,
+    LayerAttributes, LineOrder, ReadChannels, ReadLayers, WritableImage,
+};
+use serde_json::Value;
+use std::io::{self, BufReader, BufWriter, Cursor};
 use std::path::Path;
 
 const CHANNELS: [&str; 3] = ["R", "G", "B"];
@@ -20,24 +23,82 @@ const CHANNELS: [&str; 3] = ["R", "G", "B"];
 /// However short a file is, its display window can have 2²⁴ pixels, as can one of so many bytes.
 const SHORT: usize = 1 << 10;
 
-/// The planes of an image: R, G, B, `variance.R`, `variance.G`, `variance.B` and `samples.N`; and, if any pixel has a [second
-/// set](Second), `second.R`, `second.G`, `second.B` and `second.weight`.
-pub fn planes(pixels: &[Pixel]) -> Vec<(String, Numbers)> {
-    let plane = |f: &dyn Fn(&Pixel) -> f32| Numbers::F32(pixels.iter().map(f).collect());
-    let mut planes = Vec::new();
+/// Name of the text in a file.
+const TEXT: &str = "etendue";
+
+/// The bytes of an EXR file with the channels R, G, B, `variance.R`, `variance.G`, `variance.B` and `samples.N`; and, if any pixel has a
+/// [second set](Second), `second.R`, `second.G`, `second.B` and `second.weight`. Its header has a text. Equal images give equal bytes.
+///
+/// # Errors
+/// Fails if the number of pixels does not match the size.
+pub fn encode_exr(
+    pixels: &[Pixel],
+    [width, height]: [u32; 2],
+    place: PlaceInImage,
+    text: &Value,
+) -> exr::error::Result<Vec<u8>> {
+    let channel =
+        |name: &str, f: &dyn Fn(&Pixel) -> f32| AnyChannel::new(name, FlatSamples::F32(pixels.iter().map(f).collect()));
+    let samples = FlatSamples::U32(pixels.iter().map(|p| p.samples).collect());
+    let mut channels = vec![AnyChannel::new("samples.N", samples)];
     let judged = pixels.iter().any(|p| p.second.weight != 0.0);
     for (k, name) in CHANNELS.into_iter().enumerate() {
-        planes.push((name.to_owned(), plane(&|p| p.mean[k])));
-        planes.push((format!("variance.{name}"), plane(&|p| p.variance[k])));
+        channels.push(channel(name, &|p| p.mean[k]));
+        channels.push(channel(&format!("variance.{name}"), &|p| p.variance[k]));
         if judged {
-            planes.push((format!("second.{name}"), plane(&|p| p.second.mean[k])));
+            channels.push(channel(&format!("second.{name}"), &|p| p.second.mean[k]));
         }
     }
     if judged {
-        planes.push(("second.weight".to_owned(), plane(&|p| p.second.weight)));
+        channels.push(channel("second.weight", &|p| p.second.weight));
     }
-    planes.push(("samples.N".to_owned(), Numbers::U32(pixels.iter().map(|p| p.samples).collect())));
-    planes
+    // increasing line order makes the bytes independent of the number of compressing threads
+    let encoding =
+        Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
+    let [[x, y], [across, down]] = [place.start, place.whole].map(|at| at.map(|at| at as usize));
+    let mut own = LayerAttributes { layer_position: Vec2(x as i32, y as i32), ..LayerAttributes::default() };
+    own.other.insert(TEXT.into(), AttributeValue::Text(plain(text)));
+    let size = (width as usize, height as usize);
+    let layer = Layer::new(size, own, encoding, AnyChannels::sort(channels.into_iter().collect()));
+    let window = IntegerBounds { position: Vec2(0, 0), size: Vec2(across, down) };
+    let mut bytes = Cursor::new(Vec::new());
+    Image::new(ImageAttributes::new(window), layer).write().to_buffered(&mut bytes)?;
+    Ok(bytes.into_inner())
+}
+
+/// A JSON text of the characters that EXR files may have.
+fn plain(text: &Value) -> Text {
+    let mut plain = String::new();
+    for c in text.to_string().chars() {
+        if c.is_ascii() {
+            plain.push(c);
+        } else {
+            plain.extend(c.encode_utf16(&mut [0; 2]).iter().map(|unit| format!("\\u{unit:04x}")));
+        }
+    }
+    Text::new_or_panic(plain)
+}
+
+/// The text in the header of a file that [`encode_exr`] made; `None` if the file has none, or cannot be read.
+pub fn text_of(path: &Path) -> Option<Value> {
+    let mut source = BufReader::new(open_file(path).ok()?);
+    let meta = exr::meta::MetaData::read_from_buffered(&mut source, false).ok()?;
+    let AttributeValue::Text(text) = meta.headers.first()?.own_attributes.other.get(&Text::from(TEXT))? else {
+        return None;
+    };
+    serde_json::from_str(&text.to_string()).ok()
+}
+
+/// What is wrong with a file that cannot be read, for a message.
+fn why(error: &exr::error::Error) -> String {
+    use exr::error::Error;
+    const OUTSIDE: &str = "it is cut off, or its table leads to a place outside of it";
+    match error {
+        // systems refuse to go to a place that no file has
+        Error::Io(error) if error.kind() == io::ErrorKind::InvalidInput => OUTSIDE.to_owned(),
+        Error::Invalid(what) if what == "reference to missing bytes" => OUTSIDE.to_owned(),
+        other => other.to_string(),
+    }
 }
 
 /// Writes a tone-mapped PNG: Reinhard's extended curve on luminance, white at radiance 4, then 8-bit sRGB.
@@ -165,17 +226,17 @@ fn displayed(
 
 /// The data window of an EXR file, its first pixel, and the display window.
 fn decode_windows(bytes: &[u8], path: &Path) -> Result<(Picture, [i64; 2], IntegerBounds), FileError> {
-    let not_one = |error: exr::error::Error| failed(path, format!("not a valid EXR image: {}", layer::why(&error)));
+    let not_one = |error: exr::error::Error| failed(path, format!("not a valid EXR image: {}", why(&error)));
     let meta = exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(not_one)?;
     for header in &meta.headers {
         let samples = header.channels.list.iter().map(|c| c.sample_type.bytes_per_sample() as u128);
         let size = [header.layer_size.width() as u128, header.layer_size.height() as u128];
         // other channels may be subsampled, but R, G and B must not be: a pixel takes at least four bytes
-        let full = header.channels.list.iter().all(|c| c.sampling == exr::math::Vec2(1, 1));
+        let full = header.channels.list.iter().all(|c| c.sampling == Vec2(1, 1));
         check_size(path, size, 8 * if full { samples.sum() } else { 4 }, bytes.len())?;
     }
     // the reader selects chunks by the offset table but stores them by their own coordinates: both must agree
-    let full_size = exr::math::Vec2(0, 0);
+    let full_size = Vec2(0, 0);
     let chunks = exr::block::read(Cursor::new(bytes), false)
         .and_then(|reader| reader.filter_chunks(false, |_, tile, _| tile.level_index == full_size))
         .map_err(not_one)?;

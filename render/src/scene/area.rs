@@ -8,7 +8,7 @@ pub const TILE: u32 = 16;
 
 /// Where an image is in a larger one, of which it is a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "exr", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "exr", derive(serde::Serialize))]
 pub struct PlaceInImage {
     /// The column and row of its first pixel.
     pub start: [u32; 2],
@@ -30,14 +30,6 @@ pub fn count(area: Area) -> usize {
 /// The columns and rows of the pixels of an area, row by row.
 pub fn pixels([x0, y0, x1, y1]: Area) -> impl Iterator<Item = [u32; 2]> {
     (y0..y1).flat_map(move |y| (x0..x1).map(move |x| [x, y]))
-}
-
-/// The values of the pixels of `part`, out of those of an area that contains it, which has `each` values for a pixel.
-pub fn crop<T: Clone>(values: &[T], area: Area, part: Area, each: usize) -> Vec<T> {
-    let (width, [across, down]) = (size(area)[0], size(part));
-    let [left, top] = [part[0] - area[0], part[1] - area[1]].map(|at| at as usize);
-    let row = |y: usize| &values[((top + y) * width + left) * each..][..across * each];
-    (0..down).flat_map(row).cloned().collect()
 }
 
 /// Replaces the values of the pixels of `part`, which the area of `values` contains.

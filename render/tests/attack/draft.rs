@@ -166,12 +166,12 @@ impl Form {
     pub(crate) fn triangles(&self) -> &[[V3; 3]] {
         if let Self::Mesh(triangles) = self { triangles } else { &[] }
     }
-    /// The points that define the form, a sphere's being its centre, moved by `place`, and the edges and radii turned by `turn`.
-    pub(crate) fn moved(&mut self, place: impl Fn(V3) -> V3, turn: impl Fn(V3) -> V3) {
+    /// Moves the points that define the form, a sphere's being its centre, by `place`, and leaves edges and radii.
+    pub(crate) fn moved(&mut self, place: impl Fn(V3) -> V3) {
         match self {
             Self::Mesh(triangles) => triangles.iter_mut().for_each(|t| *t = t.map(&place)),
             Self::Sphere(center, _) => *center = place(*center),
-            Self::Parallelogram(p, u, v) => (*p, *u, *v) = (place(*p), turn(*u), turn(*v)),
+            Self::Parallelogram(p, ..) => *p = place(*p),
         }
     }
 }
@@ -180,10 +180,6 @@ impl Draft {
     /// A scene that is seen from there.
     pub(crate) const fn new(name: String, look: Look, parts: Vec<Part>) -> Self {
         Self { name, look, parts, sources: Vec::new(), is_shared: false }
-    }
-    /// Number of primitives.
-    pub(crate) fn size(&self) -> usize {
-        self.parts.iter().map(Part::size).sum::<usize>() + self.sources.len()
     }
     /// The pictures that the text names.
     pub(crate) fn pictures(&self) -> impl Iterator<Item = &Picture> {
@@ -211,7 +207,7 @@ impl Draft {
     pub(crate) fn shift(&mut self, by: V3) {
         let place = |p: V3| std::array::from_fn(|k| p[k] + by[k]);
         let whole = self.parts.iter_mut().filter(|part| part.copies.is_empty());
-        whole.for_each(|part| part.form.moved(place, |v| v));
+        whole.for_each(|part| part.form.moved(place));
         for map in self.parts.iter_mut().flat_map(|part| &mut part.copies) {
             map.iter_mut().zip(by).for_each(|(row, by)| row[3] += by);
         }

@@ -3,10 +3,8 @@
 use super::judge::read;
 use super::regimes::lights::RARE_SIDE;
 use super::regimes::named;
-use crate::kit::world;
 use etendue_render::sampler::default_sampler;
-use etendue_render::{Sampler, Settings, Technique, World};
-use rayon::prelude::*;
+use etendue_render::{Sampler, Settings, World};
 
 /// So many more samples has a pixel of the images that are taken for the truth, whose counts do not depend on what they find.
 const FINER: u32 = 8;
@@ -46,42 +44,4 @@ pub(crate) fn of_scene(scene: u64, spp: u32, seeds: u64) -> Mean {
     let z = (found - truth) / (a + b + (1e-6 * truth).powi(2)).sqrt();
     // a scene that is black to all images tells nothing
     if found == 0.0 && truth == 0.0 { Mean { ratio: 1.0, z: 0.0 } } else { Mean { ratio: found / truth, z } }
-}
-
-/// A square lamp of a 160,000th of the film before a wall that a dim lamp lights; or without it.
-fn speck(side: u32, is_there: bool) -> World {
-    let [a, b] = [0.01910843729897562, 0.02638784198429967];
-    let lamp = |radiance: f64, corners: String, reversed: &str| {
-        format!(
-            "AttributeBegin Material \"diffuse\" \"rgb reflectance\" [0 0 0] AreaLightSource \"diffuse\" \"rgb L\" [{radiance} \
-             {radiance} {radiance}] {reversed} Shape \"bilinearmesh\" \"point3 P\" [{corners}] AttributeEnd "
-        )
-    };
-    let own = lamp(160_000.0, format!("{a} {a} 4 {a} {b} 4 {b} {a} 4 {b} {b} 4"), "");
-    let dim = lamp(0.1, "-4 -3 -1 -4 3 -1 4 -3 -1 4 3 -1".to_owned(), "ReverseOrientation");
-    let wall = "Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5] Shape \"trianglemesh\" \"point3 P\" [-9 -9 6 9 -9 6 9 9 6 -9 9 6] \
-                \"integer indices\" [0 1 2 0 2 3] ";
-    world(&format!(
-        "LookAt 0 0 0 0 0 1 0 1 0 Camera \"perspective\" \"float fov\" 40 Film \"rgb\" \"integer xresolution\" {side} \"integer \
-         yresolution\" {side} PixelFilter \"box\" WorldBegin {} {wall} {dim}",
-        if is_there { &own } else { "" }
-    ))
-}
-
-/// The mean of images of a bright speck over seeds, less that of the rest: 1, which is its radiance times its share of the film.
-pub(crate) fn of_speck(side: u32, spp: u32, seeds: u64) -> Mean {
-    let of = |world: &World, sampler: Sampler, seed: u64| {
-        let technique = Technique::Area;
-        let settings =
-            Settings { width: side, height: side, spp, technique, sampler, sets: 0, seed, ..Settings::DEFAULT };
-        world.render(&settings, &|_| ()).0.mean()[0]
-    };
-    let [with, without] = [true, false].map(|is_there| speck(side, is_there));
-    let found: Vec<f64> = (0..seeds).into_par_iter().map(|seed| of(&with, Sampler::Adaptive, seed)).collect();
-    let rest: Vec<f64> = (0..seeds.min(32)).map(|seed| of(&without, Sampler::Sobol, seed)).collect();
-    let ([found, a], [rest, b]) = (mean(&found), mean(&rest));
-    let half = 4.0 * libm::tan(20.0_f64.to_radians());
-    let share = ((0.02638784198429967 - 0.01910843729897562) / (2.0 * half)).powi(2);
-    let expected = 160_000.0 * share;
-    Mean { ratio: (found - rest) / expected, z: (found - rest - expected) / (a + b).sqrt() }
 }

@@ -3,7 +3,6 @@
 use super::draft::Draft;
 use super::judge::{Against, Effort, TECHNIQUES, Trial, Verdict, confirmed};
 use super::regimes::Regime;
-use super::shrink::shrink;
 use etendue_render::Technique;
 use rayon::prelude::*;
 use std::fmt::{self, Display, Formatter};
@@ -22,7 +21,7 @@ pub(crate) struct Tally {
     z: f64,
     /// Greatest difference of a block relative to the light if nothing hid it.
     difference: f64,
-    /// The scenes that differ, and how; the first of them as the text of what is left of it if it is shrunk.
+    /// The scenes that differ, and how; the first of them as its text.
     pub(crate) failures: Vec<String>,
 }
 
@@ -34,13 +33,13 @@ pub(crate) fn run(regime: &Regime, seeds: Range<u64>, [side, spp]: [u32; 2]) -> 
     let judged = |seed| {
         let (draft, effort) = (regime.draft(seed), Effort::new(side, spp, seed));
         let verdict = Trial::read(&draft, side).and_then(|trial| confirmed(&trial, &TECHNIQUES, &effort));
-        (draft, effort, verdict)
+        (draft, verdict)
     };
     let verdicts: Vec<_> = seeds.into_par_iter().map(judged).collect();
     let mut tally = Tally { regime: regime.name, scenes: verdicts.len(), ..Tally::default() };
-    for (draft, effort, verdict) in verdicts {
+    for (draft, verdict) in verdicts {
         match verdict {
-            Ok(verdict) => tally.add(&draft, &effort, &verdict),
+            Ok(verdict) => tally.add(&draft, &verdict),
             Err(why) => tally.failures.push(format!("{}: cannot be rendered: {why}", draft.name)),
         }
     }
@@ -48,7 +47,7 @@ pub(crate) fn run(regime: &Regime, seeds: Range<u64>, [side, spp]: [u32; 2]) -> 
 }
 
 impl Tally {
-    fn add(&mut self, draft: &Draft, effort: &Effort, verdict: &Verdict) {
+    fn add(&mut self, draft: &Draft, verdict: &Verdict) {
         let mut failing = Vec::new();
         for row in &verdict.rows {
             let (z, difference) = (row.greatest_z(), row.greatest_difference());
@@ -62,24 +61,12 @@ impl Tally {
             failing.push(format!("{}{from} by {difference:+.2e} (|z| {:.1})", row.technique.name(), z.min(1e9)));
         }
         self.analytic += usize::from(verdict.rows[0].chosen == Technique::Analytic);
-        if let Some(technique) = verdict.failing().next() {
+        if !failing.is_empty() {
             let all = if failing.len() == verdict.rows.len() { ", all techniques" } else { "" };
-            // it takes hundreds of judgements
-            let is_first = self.failures.is_empty();
-            let least = if is_first { format!("\n{}", shrunk(draft, technique, effort)) } else { String::new() };
-            self.failures.push(format!("{}: {}{all}{least}", draft.name, failing.join(", ")));
+            let text = if self.failures.is_empty() { format!("\n{draft}") } else { String::new() };
+            self.failures.push(format!("{}: {}{all}{text}", draft.name, failing.join(", ")));
         }
     }
-}
-
-/// The fewest parts of a scene on which this technique still differs.
-fn shrunk(draft: &Draft, technique: Technique, effort: &Effort) -> Draft {
-    let fails = |candidate: &Draft| {
-        let trial = Trial::read(candidate, effort.side);
-        let verdict = trial.and_then(|trial| confirmed(&trial, &[technique], effort));
-        verdict.is_ok_and(|verdict| verdict.failing().next().is_some())
-    };
-    shrink(draft, fails)
 }
 
 impl Display for Tally {

@@ -8,13 +8,14 @@ use super::truth::Truth;
 use super::views::{Fit, View, World};
 use crate::attack::judge::read;
 use crate::attack::regimes::Regime;
+use crate::occlusion::truth::depth;
 use crate::random::Random;
 use etendue::{Real, Vec3, f32x8, f64x4};
-use etendue_oracle::{V3, along, dot, narrow, sub, unit, wide};
+use etendue_oracle::{V3, along, dot, narrow, sub, wide};
 use etendue_render::know::{Bodies, Certifier};
 use etendue_render::scene::{Geometry, Parallelogram, Scene, Shape, Sphere};
 use etendue_render::surfaces::Surfaces;
-use etendue_visible::{Occlusion, Precision, Proof, Solid};
+use etendue_visible::{Occlusion, Polyhedron, Precision, Proof, Solid};
 use std::fmt;
 
 /// Greatest error, relative to the light without occluders, and the share of the brightest point that each point counts as.
@@ -111,12 +112,13 @@ impl fmt::Display for Values {
 
 /// On the surface of a polyhedron, points are inside or outside by the rounding of its corners.
 fn has_on_surface(solids: &[Solid], p: V3) -> bool {
-    solids.iter().any(|solid| {
-        let Solid::Polyhedron(body) = solid else { return false };
-        let reach = body.edges().iter().flat_map(|edge| edge.ends).map(V3::from).chain([p]).flatten();
-        let depth = |&[normal, on]: &[Vec3<f64>; 2]| dot(unit(normal.into()), sub(on.into(), p));
-        let least = body.faces().iter().map(depth).fold(f64::INFINITY, f64::min);
-        least.abs() < 3e-7 * reach.fold(0.0, |most: f64, x| most.max(x.abs()))
+    let greatest = |body: &Polyhedron| {
+        let corners = body.edges().iter().flat_map(|edge| edge.ends).map(V3::from);
+        corners.chain([p]).flatten().fold(0.0, |most: f64, x| most.max(x.abs()))
+    };
+    solids.iter().any(|solid| match solid {
+        Solid::Polyhedron(body) => depth(body, p) < 3e-7 * greatest(body),
+        _ => false,
     })
 }
 
@@ -230,7 +232,7 @@ impl World {
             };
             values.partial += u64::from(left > 0.01 * truth.all && left < 0.99 * truth.all);
             if row >= 3 {
-                values.note_errors(spheres, both.map(|v| v.map(|v| v[lane])), left, self.around(light, p) * count);
+                values.note_errors(spheres, both.map(|v| v.map(|v| v[lane])), left, truth.around * count);
             }
             if precision == Precision::Neither {
                 continue;

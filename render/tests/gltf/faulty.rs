@@ -79,50 +79,22 @@ fn items_that_do_not_exist() {
 #[test]
 fn elements_that_do_not_fit() {
     let huge = json!(u64::MAX);
-    let cases = [
-        (
-            "/accessors/0/count",
-            json!(4),
-            "accessor 0: 4 elements of 12 bytes, 12 apart, from byte 0 on do not fit into the 36 bytes of bufferView 0",
-        ),
-        (
-            "/accessors/0/count",
-            huge.clone(),
-            "accessor 0: 18446744073709551615 elements of 12 bytes, 12 apart, from byte 0 on do not fit into the 36 bytes \
-             of bufferView 0",
-        ),
-        (
-            "/accessors/0/byteOffset",
-            json!(1),
-            "accessor 0: 3 elements of 12 bytes, 12 apart, from byte 1 on do not fit into the 36 bytes of bufferView 0",
-        ),
-        (
-            "/accessors/0/byteOffset",
-            huge.clone(),
-            "accessor 0: 3 elements of 12 bytes, 12 apart, from byte 18446744073709551615 on do not fit into the 36 bytes \
-             of bufferView 0",
-        ),
-        (
-            "/bufferViews/0/byteStride",
-            json!(16),
-            "accessor 0: 3 elements of 12 bytes, 16 apart, from byte 0 on do not fit into the 36 bytes of bufferView 0",
-        ),
-        ("/bufferViews/0/byteStride", json!(0), "accessor 0: elements of 12 bytes are 0 bytes apart"),
-        (
-            "/bufferViews/0/byteStride",
-            huge.clone(),
-            "accessor 0: 3 elements of 12 bytes, 18446744073709551615 apart, from byte 0 on do not fit into the 36 bytes \
-             of bufferView 0",
-        ),
-        (
-            "/accessors/3/count",
-            json!(30),
-            "accessor 3: 30 elements of 2 bytes, 2 apart, from byte 0 on do not fit into the 6 bytes of bufferView 3",
-        ),
-    ];
-    for (pointer, value, wanted) in cases {
-        assert_eq!(error(&[(pointer, value)]), format!("a.glb: {wanted}"), "{pointer}");
+    for (pointer, value, [count, bytes, apart, start, room, view]) in [
+        ("/accessors/0/count", json!(4), [4, 12, 12, 0, 36, 0]),
+        ("/accessors/0/count", huge.clone(), [u64::MAX, 12, 12, 0, 36, 0]),
+        ("/accessors/0/byteOffset", json!(1), [3, 12, 12, 1, 36, 0]),
+        ("/accessors/0/byteOffset", huge.clone(), [3, 12, 12, u64::MAX, 36, 0]),
+        ("/bufferViews/0/byteStride", json!(16), [3, 12, 16, 0, 36, 0]),
+        ("/bufferViews/0/byteStride", huge.clone(), [3, 12, u64::MAX, 0, 36, 0]),
+        ("/accessors/3/count", json!(30), [30, 2, 2, 0, 6, 3]),
+    ] {
+        let elements =
+            format!("accessor {view}: {count} elements of {bytes} bytes, {apart} apart, from byte {start} on");
+        let wanted = format!("a.glb: {elements} do not fit into the {room} bytes of bufferView {view}");
+        assert_eq!(error(&[(pointer, value)]), wanted, "{pointer}");
     }
+    let text = error(&[("/bufferViews/0/byteStride", json!(0))]);
+    assert_eq!(text, "a.glb: accessor 0: elements of 12 bytes are 0 bytes apart");
     let size = full().bytes.len();
     for (pointer, value, offset, length) in [
         ("/bufferViews/0/byteLength", json!(1000), 0, 1000),

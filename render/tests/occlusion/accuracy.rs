@@ -1,6 +1,6 @@
 //! Greatest errors.
 
-use super::scenes::{KINDS, Round, scene};
+use super::regimes::{Regime, regimes};
 use super::solids::{SOLID_KINDS, scene_with_solids};
 use super::truth::Truth;
 use etendue::{Real, f32x8};
@@ -85,59 +85,34 @@ fn regime(name: &str, made: impl Fn(&mut Random) -> Scene, packets: u32, seed: u
     e
 }
 
-fn accuracy(packets: u32) {
+/// Measures all regimes of polygons and spheres, or of polyhedra.
+fn accuracy(has_polyhedra: bool, packets: u32) {
     println!("{HEAD}");
-    let mut all = Greatest::NONE;
-    let mut points = 0;
-    for round in [Round::None, Round::Light, Round::Occluders] {
-        for (k, &kind) in KINDS.iter().enumerate() {
-            let name = format!("{kind:?}, {round:?}");
-            let e = regime(&name, |random| scene(random, kind, round), packets, 1000 * round as u64 + k as u64);
-            assert!(e.single.error() < BOUND, "{name}: {:?}", e.single);
-            // spheres in double precision have the accuracy of `ProjectedCap`, and corners in single precision do not lie in planes
-            assert!(e.double.error() < 1e-7, "{name}: {:?}", e.double);
-            all.take(e.single.error(), (kind, round));
-            points += e.points;
-        }
+    let (mut all, mut points) = (Greatest::NONE, 0);
+    let regimes = regimes().into_iter().filter(|regime| regime.has_polyhedra == has_polyhedra);
+    for (seed, Regime { name, scene, .. }) in (0..).zip(regimes) {
+        let e = regime(&name, scene, packets, 1000 * u64::from(has_polyhedra) + seed);
+        assert!(e.single.error() < BOUND, "{name}: {:?}", e.single);
+        // spheres in double precision have the accuracy of `ProjectedCap`, and corners in single precision do not lie in planes; near the
+        // plane of a face, rounding decides which side the point is on, in both precisions
+        assert!(e.double.error() < if has_polyhedra { BOUND } else { 1e-7 }, "{name}: {:?}", e.double);
+        points += e.points;
+        all.take(e.single.error(), seed);
     }
     println!("{points} points: greatest error {:.1e} of the angle times the occluders, {:?}", all.error(), all.at());
 }
 
-fn accuracy_past_polyhedra(packets: u32) {
-    println!("{HEAD}");
-    let mut all = Greatest::NONE;
-    for round in [false, true] {
-        for (k, &kind) in SOLID_KINDS.iter().enumerate() {
-            let name = format!("{kind:?}, {}", if round { "sphere" } else { "polygon" });
-            let seed = 5000 + 1000 * u64::from(round) + k as u64;
-            let e = regime(&name, |random| scene_with_solids(random, kind, round), packets, seed);
-            // near the plane of a face, rounding decides which side the point is on, in both precisions
-            assert!(e.single.error() < BOUND, "{name}: {:?}", e.single);
-            assert!(e.double.error() < BOUND, "{name}: {:?}", e.double);
-            all.take(e.single.error(), (kind, round));
-        }
-    }
-    println!("greatest error {:.1e} of the angle times the occluders, {:?}", all.error(), all.at());
-}
-
 #[test]
 fn visible_parts() {
-    accuracy(cases(75, 150));
+    accuracy(false, cases(75, 150));
+    accuracy(true, cases(30, 150));
 }
 
 #[test]
-#[ignore = "a million points: a minute"]
-fn visible_parts_of_a_million_points() {
-    accuracy(1900);
-}
-#[test]
-fn visible_parts_past_polyhedra() {
-    accuracy_past_polyhedra(cases(30, 150));
-}
-#[test]
-#[ignore = "400,000 points: some minutes"]
-fn visible_parts_past_polyhedra_of_many_points() {
-    accuracy_past_polyhedra(1900);
+#[ignore = "1.4 million points: some minutes"]
+fn visible_parts_of_many_points() {
+    accuracy(false, 1900);
+    accuracy(true, 1900);
 }
 
 /// No corner of a polyhedron is farther beyond the plane through a point and an edge of the outline than documented.

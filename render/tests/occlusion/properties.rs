@@ -1,8 +1,7 @@
 //! Properties of visible parts, and special cases.
 
 use super::accuracy::BOUND;
-use super::scenes::{KINDS, Round, scene};
-use super::solids::{SOLID_KINDS, scene_with_solids};
+use super::regimes::{Regime, regimes};
 use super::truth::{Truth, polygon, sphere};
 use etendue::{Real, f32x8};
 use etendue_judge::generators::Random;
@@ -10,23 +9,20 @@ use etendue_judge::occlusion::Scene;
 use etendue_oracle::Greatest;
 use etendue_visible::Solid;
 
-/// Scenes of all regimes, with their greatest rounding error in a lane.
-fn scenes(count: u32, seed: u64, mut f: impl FnMut(Scene, &mut Random)) {
+/// Scenes of all regimes.
+fn scenes(count: u32, seed: u64, mut f: impl FnMut(&Regime, Scene, &mut Random)) {
     let mut random = Random::new(seed);
-    for _ in 0..count {
-        for round in [Round::None, Round::Light, Round::Occluders] {
-            for &kind in KINDS {
-                let scene = scene(&mut random, kind, round);
-                f(scene, &mut random);
-            }
-        }
+    let regimes = regimes();
+    for regime in (0..count).flat_map(|_| &regimes) {
+        let scene = (regime.scene)(&mut random);
+        f(regime, scene, &mut random);
     }
 }
 
 /// Total, within [0, Ω⊥], lane-identical and independent of the unit of length, in all regimes.
 #[test]
 fn properties_in_all_regimes() {
-    scenes(30, 71, |scene, _| {
+    scenes(30, 71, |_, scene, _| {
         scene.total();
         scene.lanes();
         scene.scale(20);
@@ -34,26 +30,14 @@ fn properties_in_all_regimes() {
     });
 }
 
-/// The same past polyhedra.
-#[test]
-fn properties_past_polyhedra() {
-    let mut random = Random::new(74);
-    for _ in 0..30 {
-        for (kind, round) in SOLID_KINDS.iter().flat_map(|&kind| [(kind, false), (kind, true)]) {
-            let scene = scene_with_solids(&mut random, kind, round);
-            scene.total();
-            scene.lanes();
-            scene.scale(20);
-            scene.scale(-20);
-        }
-    }
-}
-
 /// The order of corners and of occluders, and the direction around, only change the rounding; a further occluder never adds light.
 #[test]
 fn orders() {
     let (mut order, mut more) = (Greatest::NONE, Greatest::NONE);
-    scenes(30, 73, |scene, random| {
+    scenes(30, 73, |regime, scene, random| {
+        if regime.has_polyhedra {
+            return;
+        }
         let mut other = scene.clone();
         for shape in core::iter::once(&mut other.light).chain(&mut other.occluders) {
             if let Solid::Polygon { corners, count, .. } = shape {

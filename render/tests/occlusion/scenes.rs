@@ -1,6 +1,7 @@
 //! Scenes of polygons and spheres, by regimes.
 
 use super::truth::{polygon, sphere};
+use crate::attack::build::{cube, placed};
 use etendue_judge::generators::Random;
 use etendue_judge::occlusion::Scene;
 use etendue_oracle::{V3, along, basis, cross, dot, narrow, sub, unit, wide};
@@ -45,7 +46,7 @@ pub(crate) fn corners(random: &mut Random, middle: V3, [s, t]: [V3; 2], [a, b]: 
     (0..n).map(at).collect()
 }
 
-pub(crate) fn scene(random: &mut Random, kind: Difficulty, round: Round) -> Scene {
+pub(super) fn scene(random: &mut Random, kind: Difficulty, round: Round) -> Scene {
     let scene = unplaced(random, kind, round);
     Placement::new(random).scene(scene)
 }
@@ -240,23 +241,14 @@ fn unplaced(random: &mut Random, kind: Difficulty, round: Round) -> Scene {
                 }
                 Difficulty::Fan => continue,
                 Difficulty::Box if i == 0 => {
-                    let (x, y) = (plane[0], plane[1]);
-                    let z = cross(x, y);
-                    let extent = [own, own * random.range(0.2, 1.0), own * random.range(0.2, 1.0)];
-                    for axis in 0..3 {
-                        for side in [-1.0, 1.0] {
-                            let axes = [x, y, z];
-                            let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-                            let face = along(middle, axes[axis], side * extent[axis]);
-                            let corner =
-                                |p: f64, q: f64| along(along(face, axes[u], p * extent[u]), axes[v], q * extent[v]);
-                            let quad = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
-                            if random.unit() < 0.3 {
-                                occluders.push(polygon(&quad[..3]));
-                                occluders.push(polygon(&[quad[2], quad[3], quad[0]]));
-                            } else {
-                                occluders.push(polygon(&quad));
-                            }
+                    let axes = [plane[0], plane[1], cross(plane[0], plane[1])];
+                    let half = [own, own * random.range(0.2, 1.0), own * random.range(0.2, 1.0)];
+                    for quad in placed(&cube(), half, &axes, middle) {
+                        if random.unit() < 0.3 {
+                            occluders.push(polygon(&quad[..3]));
+                            occluders.push(polygon(&[quad[2], quad[3], quad[0]]));
+                        } else {
+                            occluders.push(polygon(&quad));
                         }
                     }
                     continue;
@@ -305,6 +297,12 @@ fn unplaced(random: &mut Random, kind: Difficulty, round: Round) -> Scene {
         }
     }
     occluders.truncate(16);
+    let (points, normals) = surface(random, normal, spread, kind == Difficulty::TouchSurface);
+    Scene { light, occluders, points, normals }
+}
+
+/// Points about the origin on a surface, and the normals there, which are nearly the same unless all are.
+pub(crate) fn surface(random: &mut Random, normal: V3, spread: f64, is_flat: bool) -> ([[f32; 3]; 8], [[f32; 3]; 8]) {
     let points = core::array::from_fn(|i| {
         let off = random.direction();
         // on the surface, so that what stands on it touches the horizon
@@ -312,8 +310,8 @@ fn unplaced(random: &mut Random, kind: Difficulty, round: Round) -> Scene {
         narrow(off.map(|x| if i == 0 { 0.0 } else { spread * x }))
     });
     let normals = core::array::from_fn(|i| {
-        let off = if kind == Difficulty::TouchSurface || i < 2 { 0.0 } else { 0.1 };
+        let off = if is_flat || i < 2 { 0.0 } else { 0.1 };
         narrow(unit(along(normal, random.direction(), off)))
     });
-    Scene { light, occluders, points, normals }
+    (points, normals)
 }

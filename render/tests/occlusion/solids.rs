@@ -1,11 +1,11 @@
 //! Scenes with convex polyhedra, by regimes.
 
-use super::scenes::{Placement, corners, kinds};
+use super::scenes::{Placement, corners, kinds, surface};
 use super::truth::{polygon, sphere};
 use crate::attack::build::{Solid as Faces, cube, placed, prism, tetrahedron, triangles};
 use etendue_judge::generators::Random;
 use etendue_judge::occlusion::Scene;
-use etendue_oracle::{V3, along, basis, cross, dot, narrow, sub, unit, wide};
+use etendue_oracle::{V3, along, basis, cross, dot, sub, unit, wide};
 use etendue_visible::Solid;
 
 /// The least gap between a polyhedron and the light, relative to the way to the light.
@@ -147,16 +147,7 @@ pub(crate) fn scene_with_solids(random: &mut Random, kind: SolidKind, round: boo
         SolidKind::Near | SolidKind::GrazingFace => 1e-3 * size,
         _ => 0.2 * size.min(0.5),
     };
-    let points = core::array::from_fn(|i| {
-        let off = random.direction();
-        // on the surface, so that what stands on it touches the horizon
-        let off = along(off, normal, -dot(off, normal));
-        narrow(off.map(|x| if i == 0 { 0.0 } else { spread * x }))
-    });
-    let normals = core::array::from_fn(|i| {
-        let off = if kind == SolidKind::Standing || i < 2 { 0.0 } else { 0.1 };
-        narrow(unit(along(normal, random.direction(), off)))
-    });
+    let (points, normals) = surface(random, normal, spread, kind == SolidKind::Standing);
     let placement = Placement::new(random);
     let scene = placement.scene(Scene { light, occluders, points, normals });
     let solid = |solid: &Faces| {

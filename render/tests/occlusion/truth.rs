@@ -8,7 +8,7 @@ use etendue_visible::{Polyhedron, Solid, V64};
 
 /// What is so near to the plane of a flat light does not occlude it, relative to the greatest coordinate of the point and the light, as
 /// documented.
-const ENDS: f64 = 1.0 / 2_097_152.0;
+pub(crate) const ENDS: f64 = 1.0 / 2_097_152.0;
 
 /// The exact value of a point.
 pub(crate) fn exact(v: Vec3<f32>) -> V64 {
@@ -41,8 +41,8 @@ fn outlines(body: &Polyhedron) -> impl Iterator<Item = Vec<V3>> {
 }
 
 /// The surface of a shape relative to a point: a shape, or the faces of a polyhedron.
-fn from_point(shape: &Solid, point: [f32; 3]) -> Vec<Shape> {
-    let relative = |v: V3| sub(v, wide(point));
+pub(crate) fn from_point(shape: &Solid, point: V3) -> Vec<Shape> {
+    let relative = |v: V3| sub(v, point);
     let flat = |corners: &[V3]| Shape::Polygon(corners.iter().map(|&v| relative(v)).collect());
     match shape {
         Solid::Polygon { corners, count, .. } => vec![flat(&corners.map(V3::from)[..*count])],
@@ -52,6 +52,12 @@ fn from_point(shape: &Solid, point: [f32; 3]) -> Vec<Shape> {
         Solid::Sphere { center, radius } => vec![Shape::Sphere(relative((*center).into()), *radius)],
         Solid::Polyhedron(body) => outlines(body).map(|face| flat(&face)).collect(),
     }
+}
+
+/// How far a point is at least from the plane of a face of a polyhedron.
+pub(crate) fn depth(body: &Polyhedron, point: V3) -> f64 {
+    let depth = |&[normal, on]: &[V64; 2]| dot(unit(normal.into()), sub(on.into(), point));
+    body.faces().iter().map(depth).fold(f64::INFINITY, f64::min).abs()
 }
 
 /// The least and the greatest distance of the edges of a polyhedron from a point.
@@ -88,17 +94,15 @@ impl Truth for Scene {
             Shape::Sphere(center, radius) => (1.0 - (radius / length(center)).powi(2)).max(0.0).sqrt(),
         };
         let shapes = self.occluders.iter().chain([&self.light]);
-        shapes.flat_map(|shape| from_point(shape, self.points[lane])).map(sine).fold(1.0, f64::min)
+        shapes.flat_map(|shape| from_point(shape, wide(self.points[lane]))).map(sine).fold(1.0, f64::min)
     }
     fn surrounded(&self, lane: usize) -> bool {
         self.occluders.iter().any(|occluder| {
             if let Solid::Polyhedron(body) = occluder {
                 let point = wide(self.points[lane]);
-                let depth = |&[normal, on]: &[V64; 2]| dot(unit(normal.into()), sub(on.into(), point));
-                let least = body.faces().iter().map(depth).fold(f64::INFINITY, f64::min);
-                return least.abs() < 1e-6 * distances(body, point)[1];
+                return depth(body, point) < 1e-6 * distances(body, point)[1];
             }
-            let [Shape::Polygon(c)] = &from_point(occluder, self.points[lane])[..] else { return false };
+            let [Shape::Polygon(c)] = &from_point(occluder, wide(self.points[lane]))[..] else { return false };
             let last = c[c.len() - 1];
             let across = unit(cross(sub(c[1], c[0]), sub(last, c[0])));
             let size = c.iter().map(|c| length(*c)).fold(0.0, f64::max);
@@ -114,11 +118,11 @@ impl Truth for Scene {
         self.occluders.iter().map(of).fold(0.0, f64::max)
     }
     fn truth(&self, lane: usize) -> Option<[Visible; 2]> {
-        let point = self.points[lane];
+        let point = wide(self.points[lane]);
         let light = from_point(&self.light, point).swap_remove(0);
         let each: Vec<Vec<Shape>> = self.occluders.iter().map(|occluder| from_point(occluder, point)).collect();
         let at = |share: f64| {
-            let spared = share * spared(&light, wide(point), ENDS);
+            let spared = share * spared(&light, point, ENDS);
             let seen = |occluders: &[Shape]| visible(&light, occluders, wide(self.normals[lane]), spared);
             let mut found = seen(&each.concat())?;
             // a polyhedron is one occluder

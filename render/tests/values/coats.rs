@@ -1,7 +1,8 @@
 //! Coats over diffuse surfaces and over metals.
 
 use super::meanings::SOME;
-use super::row::{Row, grey, look, times};
+use super::row::{FLOOR, Row, grey, look, times};
+use etendue_oracle::direct::fresnel;
 
 pub(super) fn rows() -> Vec<Row> {
     [coats(), coated_mirrors()].into_iter().flatten().collect()
@@ -11,20 +12,11 @@ pub(super) fn rows() -> Vec<Row> {
 fn under_sun(material: &str, view: f64, light: f64) -> String {
     let at = |angle: f64, turn: f64| [angle.sin() * turn.cos(), angle.sin() * turn.sin(), angle.cos()];
     let [x, y, z] = at(light.to_radians(), 130_f64.to_radians());
-    let floor = "Shape \"bilinearmesh\" \"point3 P\" [-900 -900 0  900 -900 0  -900 900 0  900 900 0]";
     let eye = times(at(view.to_radians(), 0.0), 0.5);
     format!(
-        "{}LightSource \"distant\" \"point3 from\" [{x} {y} {z}] \"point3 to\" [0 0 0]\n{material}\n{floor}",
+        "{}LightSource \"distant\" \"point3 from\" [{x} {y} {z}] \"point3 to\" [0 0 0]\n{material}\n{FLOOR}",
         look(eye, [0.0; 3])
     )
-}
-
-/// Fresnel's reflectance of a dielectric (Born and Wolf, 1.5.2).
-fn fresnel(cos: f64, eta: f64) -> f64 {
-    let refracted = (1.0 - (1.0 - cos * cos) / (eta * eta)).max(0.0).sqrt();
-    let across = (cos - eta * refracted) / (cos + eta * refracted);
-    let along = (eta * cos - refracted) / (eta * cos + refracted);
-    0.5 * (across * across + along * along)
 }
 
 /// F D G₂ / (4 cosθᵢ) of a GGX interface for directions at these angles, 130° apart (Heitz 2014, equations 85, 86 and 99).
@@ -38,7 +30,7 @@ fn shine(alpha: f64, eta: f64, view: f64, light: f64) -> f64 {
     let square = up * up;
     let density = alpha * alpha / (std::f64::consts::PI * (square * (alpha * alpha - 1.0) + 1.0).powi(2));
     let lambda = |angle: f64| 0.5 * ((1.0 + (alpha * angle.tan()).powi(2)).sqrt() - 1.0);
-    fresnel(half, eta) * density / (1.0 + lambda(view) + lambda(light)) / (4.0 * view.cos())
+    fresnel(half, eta, 0.0) * density / (1.0 + lambda(view) + lambda(light)) / (4.0 * view.cos())
 }
 
 /// Coats over diffuse surfaces: the base by quadrature, and the highlight by its formula.
@@ -69,24 +61,12 @@ fn coats() -> Vec<Row> {
         let right = grey(shine(alpha, 1.5, view, light));
         rows.push(Row::new(name, under_sun(&material, view, light), right).within(1e-4).by(SOME));
     }
-    let [f, g] = [0.0_f64, 45.0].map(|angle| fresnel(angle.to_radians().cos(), 1.5));
+    let [f, g] = [0.0_f64, 45.0].map(|angle| fresnel(angle.to_radians().cos(), 1.5, 0.0));
     let default = (1.0 - f) * (1.0 - g) / 2.25 * 0.5 / (1.0 - 0.5 * 0.596_35) / std::f64::consts::PI;
     let right = grey(default * 45_f64.to_radians().cos());
     let text = under_sun("Material \"coateddiffuse\"", 0.1, 45.0);
     rows.push(Row::new("coateddiffuse without parameters", text, right).within(0.01).by(SOME));
     rows
-}
-
-/// Reflectance of a conductor of complex index η + ik for unpolarised light at a cosine in a medium of this index.
-fn of_metal(cos: f64, eta: f64, k: f64) -> f64 {
-    let sine = 1.0 - cos * cos;
-    let t0 = eta * eta - k * k - sine;
-    let sum = (t0 * t0 + 4.0 * eta * eta * k * k).sqrt();
-    let a = (0.5 * (sum + t0)).max(0.0).sqrt();
-    let across = (sum + cos * cos - 2.0 * a * cos) / (sum + cos * cos + 2.0 * a * cos);
-    let along = across * (sum * cos * cos + sine * sine - 2.0 * a * cos * sine)
-        / (sum * cos * cos + sine * sine + 2.0 * a * cos * sine);
-    0.5 * (across + along)
 }
 
 /// Smooth coats over smooth metals are mirrors: what they show of a sky of 1 is a geometric series.
@@ -100,12 +80,11 @@ fn coated_mirrors() -> Vec<Row> {
             );
             let cos = angle.to_radians().cos();
             let below = (1.0 - (1.0 - cos * cos) / (coat * coat)).sqrt();
-            let (f, r) = (fresnel(cos, coat), of_metal(below, eta / coat, k / coat));
+            let (f, r) = (fresnel(cos, coat, 0.0), fresnel(below, eta / coat, k / coat));
             let right = f + (1.0 - f) * (1.0 - f) * r / (1.0 - f * r);
-            let floor = "Shape \"bilinearmesh\" \"point3 P\" [-900 -900 0  900 -900 0  -900 900 0  900 900 0]";
             let eye = [0.5 * angle.to_radians().sin(), 0.0, 0.5 * cos];
             let name = format!("coatedconductor of {eta} + {k}i below {coat}, seen at {angle}");
-            rows.push(Row::new(name, format!("{}{material}\n{floor}", look(eye, [0.0; 3])), grey(right)).by(SOME));
+            rows.push(Row::new(name, format!("{}{material}\n{FLOOR}", look(eye, [0.0; 3])), grey(right)).by(SOME));
         }
     }
     rows

@@ -64,29 +64,6 @@ impl Row {
         let lines: Result<Vec<_>, _> = self.techniques.iter().map(|technique| self.seen(&world, *technique)).collect();
         Ok(lines?.join("\n"))
     }
-    /// A line of the table: the file, which is written to a folder, what it is about, the right value, what three techniques show, and the
-    /// greatest difference of these from what is wanted, relative to its greatest channel.
-    pub(super) fn line(&self, number: usize, folder: &Path) -> Result<String, String> {
-        let (file, text) = match &self.text {
-            Text::Pbrt(text) => (format!("{number:04}.pbrt"), text),
-            Text::Gltf(text) => (format!("{number:04}.gltf"), text),
-        };
-        std::fs::write(folder.join(&file), text).map_err(|error| error.to_string())?;
-        let scene = etendue_scene::load(folder.join(&file)).map_err(|error| error.to_string())?;
-        let world = World::new(&scene).map_err(|error| error.to_string())?;
-        let (wanted, by_choice) = self.differs.map_or((self.right, ""), |(shown, _)| (shown, " (by choice another)"));
-        let greatest = wanted.iter().fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
-        let (mut values, mut off) = (String::new(), 0.0_f64);
-        for technique in [Technique::Auto, Technique::SolidAngle, Technique::MisPower] {
-            let (sampler, spp) = (Sampler::Independent, self.samples.max(2048));
-            let settings = Settings { width: 1, height: 1, spp, technique, sampler, seed: 5, ..Settings::DEFAULT };
-            let mean = world.render(&settings, &|_| ()).0.pixels[0].mean.map(f64::from);
-            off = (0..3).fold(off, |off, k| off.max((mean[k] - wanted[k]).abs() / greatest));
-            values += &format!(" | {:.6} {:.6} {:.6}", mean[0], mean[1], mean[2]);
-        }
-        let [r, g, b] = wanted;
-        Ok(format!("{file} | {}{by_choice} | {r:.6} {g:.6} {b:.6}{values} | {off:.1e}", self.name))
-    }
     fn seen(&self, world: &World, technique: Technique) -> Result<String, String> {
         let name = if self.techniques.len() > 1 { format!("{}, {technique:?}", self.name) } else { self.name.clone() };
         let (sampler, spp) = (Sampler::Independent, self.samples);
@@ -129,9 +106,12 @@ pub(super) fn look(eye: V3, target: V3) -> String {
     format!("LookAt {a} {b} {c} {x} {y} {z} .1 .7 .3 Camera \"perspective\" \"float fov\" 1e-4\nWorldBegin\n")
 }
 
+/// The plane z = 0, and one with the albedo.
+pub(super) const FLOOR: &str = "Shape \"bilinearmesh\" \"point3 P\" [-900 -900 0  900 -900 0  -900 900 0  900 900 0]\n";
+pub(super) const WHITE_FLOOR: &str = "Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5]\n\
+    Shape \"bilinearmesh\" \"point3 P\" [-900 -900 0  900 -900 0  -900 900 0  900 900 0]\n";
+
 /// A camera that sees the origin on a floor, which is the plane z = 0.
 pub(super) fn on_floor(lights: &str) -> String {
-    let floor = "Shape \"bilinearmesh\" \"point3 P\" [-900 -900 0  900 -900 0  -900 900 0  900 900 0]";
-    let material = "Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5]";
-    format!("{}{material}\n{floor}\n{lights}", look([0.01, 0.02, 0.5], [0.0; 3]))
+    format!("{}{WHITE_FLOOR}{lights}", look([0.01, 0.02, 0.5], [0.0; 3]))
 }

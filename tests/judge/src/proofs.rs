@@ -61,7 +61,8 @@ pub type Prover<'a> = dyn Fn(&Room, &[V3]) -> Option<Answer> + 'a;
 
 impl Room {
     /// A random room.
-    fn new(random: &mut Random) -> Self {
+    #[must_use]
+    pub fn new(random: &mut Random) -> Self {
         let single = |v: V3| v.map(|x| f64::from(x as f32));
         let mut vector = |low: f64, high: f64| single([(); 3].map(|()| random.range(low, high)));
         let (from, turn, at, [size, r, _]) =
@@ -95,6 +96,36 @@ impl Room {
             },
             occluders,
         }
+    }
+
+    /// Four points of the patch.
+    #[must_use]
+    pub fn points(&self, random: &mut Random) -> [V3; 4] {
+        let [a, b, _, d] = self.patch;
+        [(); 4].map(|()| along(along(a, sub(b, a), random.unit_f64()), sub(d, a), random.unit_f64()))
+    }
+
+    /// How far an answer for these points is off at most, relative to the error that it states: infinitely where a claim is wrong.
+    #[must_use]
+    pub fn worst(&self, points: &[V3], answer: &Answer) -> Measured {
+        let mut worst = Measured::right(Figure::Bias, 1.0);
+        for (&p, value) in points.iter().zip(&answer.irradiance) {
+            let light = self.light.shapes(p).swap_remove(0);
+            let occluders: Vec<Shape> = self.occluders.iter().flat_map(|body| body.shapes(p)).collect();
+            let Some(truth) = visible(&light, &occluders, UP, spared(&light, p, ENDS)) else { continue };
+            let is_wrong = match answer.claim {
+                Claim::Lit => truth.occluders > 0,
+                Claim::Dark => truth.left > 1e-12,
+                Claim::Open => false,
+            };
+            let off = value.map_or(0.0, |[value, error]| (value - truth.left).abs() / (error + 1e-15));
+            let off = if is_wrong { f64::INFINITY } else { off };
+            if !(off <= worst.value) {
+                let at = format!("{:?}, {value:?} instead of {} at {p:?}", answer.claim, truth.left);
+                worst = Measured { value: off, at, ..worst };
+            }
+        }
+        worst
     }
 }
 
@@ -135,24 +166,10 @@ pub fn judge(name: &str, prover: &Prover<'_>, rooms: usize, seed: u64) -> Judgem
     let (mut cases, mut findings) = (Vec::new(), Vec::<Finding>::new());
     for number in 0..rooms {
         let room = Room::new(&mut random);
-        let [a, b, _, d] = room.patch;
-        let mut point = || along(along(a, sub(b, a), random.unit_f64()), sub(d, a), random.unit_f64());
-        let points = [(); 4].map(|()| point());
+        let points = room.points(&mut random);
         let mut figures = Vec::new();
-        if let Some(Answer { claim, irradiance }) = prover(&room, &points) {
-            let mut worst = Measured::right(Figure::Bias, 1.0);
-            for (&p, value) in points.iter().zip(irradiance) {
-                let light = room.light.shapes(p).swap_remove(0);
-                let occluders: Vec<Shape> = room.occluders.iter().flat_map(|body| body.shapes(p)).collect();
-                let Some(truth) = visible(&light, &occluders, UP, spared(&light, p, ENDS)) else { continue };
-                let is_wrong = claim == Claim::Lit && truth.occluders > 0 || claim == Claim::Dark && truth.left > 1e-12;
-                let off = value.map_or(0.0, |[value, error]| (value - truth.left).abs() / (error + 1e-15));
-                let off = if is_wrong { f64::INFINITY } else { off };
-                if !(off <= worst.value) {
-                    let at = format!("{claim:?}, {value:?} instead of {} at {p:?}", truth.left);
-                    worst = Measured { value: off, at, ..worst };
-                }
-            }
+        if let Some(answer) = prover(&room, &points) {
+            let worst = room.worst(&points, &answer);
             if worst.is_finding() && findings.is_empty() {
                 let said = format!("it contradicts the oracle: {}", worst.at);
                 findings.push(Finding { figure: Figure::Bias, value: worst.value, said, input: format!("{room:?}") });

@@ -14,13 +14,14 @@ mod random;
 mod scene;
 mod source;
 
+pub use metal::fresnel;
 pub use pattern::{Beyond, Pattern, Picture, PositionMap};
 pub use scene::{Body, Detail, Emission, Finish, Form, Lens, Opacity, View};
 pub use source::{Cone, Sky, SurfacelessLight};
 
 use crate::vectors::{V3, along, dot, sub, unit};
 use light::{Receiver, SeenLight, transmittance};
-use metal::{brdf, fresnel};
+use metal::brdf;
 use random::Random;
 use scene::{Hit, Prepared, hits};
 

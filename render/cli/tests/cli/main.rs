@@ -5,7 +5,6 @@ mod hints;
 mod hostile;
 mod lost;
 mod misuse;
-mod parts;
 mod refined;
 mod view;
 mod viewer;
@@ -329,7 +328,7 @@ fn compare_warns_and_refuses() {
     assert!(error.contains("few.png"), "{error}");
 }
 
-/// Second sets are in the file of an image, of one or of several passes or merged, and judge what any program made of it.
+/// Second sets are in the file of an image, of one or of several passes, and judge what any program made of it.
 #[test]
 fn filtered_images_are_judged() {
     let folder = Folder::new();
@@ -342,9 +341,8 @@ fn filtered_images_are_judged() {
     render("none.exr", &["--spp", "64", "--sampler", "sobol"]);
     render("many.exr", &["--spp", "2048", "--seed", "9"]);
     render("few.exr", &["--spp", "2", "--seed", "3"]);
-    folder.succeed(&["merge", "a.exr", "b.exr", "-o", "both.exr"]);
     let claim = |image: &str, filtered: &str| json(&folder.succeed(&["compare", image, filtered, "--claim", "--json"]));
-    for image in ["a.exr", "both.exr", "passes.exr"] {
+    for image in ["a.exr", "passes.exr"] {
         let own = claim(image, image);
         assert_eq!((&own["difference"]["mse"], &own["better"]), (&0.0.into(), &Value::Null), "{own}");
         assert!(own["pixels"].as_u64().unwrap() >= 300, "{own}");

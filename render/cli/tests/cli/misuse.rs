@@ -23,13 +23,11 @@ fn bad_values_are_named_with_their_option() {
         ("render", "--error", "-1%", "from 1e-6 to 1"),
         ("render", "--error", "1", "is 100 % of the mean: write 1% or 100%"),
         ("render", "--error", "0.29", "is 29 % of the mean: write 0.29% or 29%"),
-        ("render", "--tile", "-16,0,16,16", "four numbers"),
         ("render", "--sampler", "-sobol", "[possible values: "),
         ("render", "--technique", "luck", "[possible values: "),
         ("render", "--choice", "luck", "[possible values: "),
         ("render", "--sensor", "film", "[possible values: "),
         ("render", "--seed", "x", "from 0 to 18446744073709551615"),
-        ("plan", "--tasks", "-1", "from 1 to 1000000"),
         ("chart", "--spp", "-1", "from 1 to 4194304"),
         ("chart", "--replicates", "-1", "from 1 to 10000"),
         ("chart", "--time-limit", "-1", "from 0 to"),
@@ -53,9 +51,6 @@ fn there_is_one_limit_of_samples() {
     let limit = ["many.pbrt:2: ", "16777216 samples per pixel: ", "must be from 1 to 4194304"];
     faulty(&folder, "many.pbrt", grid, &limit);
     assert!(folder.fail(&["render", "quads", "--spp", "4194305"]).contains("must be a whole number from 1 to 4194304"));
-    folder.write("most.pbrt", sampler("\"integer xsamples\" 2048 \"integer ysamples\" 2048"));
-    let plan = folder.run(&["plan", "most.pbrt", "--tasks", "1"]);
-    assert!(plan.status.success(), "{plan:?}");
 }
 
 #[test]
@@ -126,16 +121,6 @@ fn names_need_not_be_text() {
     }
     // each has an image of its own
     assert!([&b"a\xff.exr"[..], b"a\xfe.exr", b"a\xff.png", b"a\xfe.png"].iter().all(|name| path(name).is_file()));
-    let single = fs::read(path(b"a\xff.exr")).unwrap();
-    // a plan that a shell runs
-    let (code, plan, error) = run(&[b"plan", b"a\xff.pbrt", b"--tasks", b"1", b"-o", b"it's \xfd.exr"]);
-    assert_eq!(code, Some(0), "{error}");
-    fs::write(path(b"plan"), plan).unwrap();
-    let shell = Command::new("sh").current_dir(&folder.0).args(["-e", "plan"]).output().unwrap();
-    assert!(shell.status.success(), "{shell:?}");
-    assert!(fs::read(path(b"it's \xfd.exr")).unwrap() == single);
-    let (code, _, error) = run(&[b"plan", b"a\xff.pbrt", b"-o", b"two\nlines.exr"]);
-    assert!(code == Some(2) && error.contains("line break"), "{error}");
     // messages, and the other commands that take scenes
     let (code, _, error) = run(&[b"render", b"b\xff.pbrt"]);
     assert!(code == Some(2) && error.contains("cannot read \"b\u{fffd}.pbrt\""), "{error}");
@@ -150,16 +135,13 @@ fn a_full_standard_output_is_named() {
     let folder = Folder::new();
     let image = ["render", "quads", "--size", "8x8", "--spp", "4", "-o", "a.exr"];
     folder.succeed(&image);
-    folder.succeed(&["render", "quads", "--size", "16x16", "--spp", "4", "--tile", "0,0,16,16", "-o", "part.exr"]);
     let full = "standard output: cannot write: No space left on device";
     for (arguments, more) in [
         (&["list"][..], ""),
-        (&["plan", "quads", "--spp", "4"], ""),
         (&image, "; a.exr and a.png were written"),
         (&[&image[..], &["--json"]].concat(), "; a.exr and a.png were written"),
         (&["compare", "a.exr", "a.exr"], ""),
         (&["compare", "a.exr", "a.exr", "--json"], ""),
-        (&["merge", "-o", "b.exr", "part.exr"], ""),
     ] {
         let to = |out: Stdio| {
             let mut command = Command::new(env!("CARGO_BIN_EXE_etendue"));
@@ -204,8 +186,6 @@ fn files_that_are_no_images_or_folders_are_named() {
     assert!(error.contains("file.exr: not a valid EXR image: it is cut off"), "{error}");
     let error = folder.fail(&["chart", "quads", "-o", "file.exr"]);
     assert!(error.contains("file.exr: cannot make this folder: a file has this name"), "{error}");
-    let error = folder.fail(&["plan", "quads", "-o", "a.exr", "--parts", "file.exr"]);
-    assert!(error.contains("--parts file.exr: this is a file, not a folder"), "{error}");
     let film = scene("").replace("Film \"rgb\"", "Film \"rgb\" \"string filename\" \"nowhere/taken.png\"");
     folder.write("film.pbrt", film);
     fs::create_dir(folder.path("taken.exr")).unwrap();

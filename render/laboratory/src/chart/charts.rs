@@ -1,18 +1,17 @@
 //! Draws the charts of a scene.
 
-use super::answer;
 use super::clock::Clock;
-use super::plot::{Bar, BarRow, Bars, Chart, Dot, Drawing, Line, Scale, short};
-use super::stats::{Estimate, WIDEST};
-use super::summary::{ERRORS, ORDER, Point, Series, Summary};
+use super::plot::{Bar, Chart, Dot, Drawing, Line, Scale, short};
+use super::stats::Estimate;
+use super::summary::{Point, Series, Summary};
 
 /// A chart with a file name and a caption.
 #[derive(Clone, Debug)]
 pub struct Figure {
     /// Name of the chart in file names.
     pub file: String,
-    /// What a page must ask for to show the chart; `None` if it always does.
-    pub shown_for: Option<(Against, Measure)>,
+    /// What a page must ask for to show the chart.
+    pub shown_for: (Against, Measure),
     /// The drawing.
     pub drawing: Drawing,
     /// Caption for a page.
@@ -172,38 +171,11 @@ pub fn error(summary: &Summary, against: Against, measure: Measure) -> Option<Fi
                     points.";
     }
     let file = format!("{}error-{}", ["", "squared-", "relative-"][measure as usize], against.name());
-    Some(Figure { file, shown_for: Some((against, measure)), drawing: chart.draw(), caption })
+    Some(Figure { file, shown_for: (against, measure), drawing: chart.draw(), caption })
 }
 
 /// All charts of a scene, in the order of a page.
 #[must_use]
 pub fn all(summary: &Summary) -> Vec<Figure> {
-    let errors = Measure::ALL.iter().flat_map(|m| Against::ALL.map(|a| error(summary, a, *m)));
-    errors.chain([seconds(summary)]).flatten().collect()
-}
-
-/// Draws the seconds to an error of 1 %, the fewest first; `None` if no series has a positive error.
-#[must_use]
-pub fn seconds(summary: &Summary) -> Option<Figure> {
-    let leaders = summary.leaders();
-    let row = |index: &usize| {
-        let (series, shown) = (&summary.series[*index], leaders.contains(index));
-        let reach = series.reaches[ORDER]?;
-        let sure = !reach.is_beyond && !reach.is_upper_bound && reach.factor - 1.0 <= WIDEST;
-        let end = |end: f64| if reach.factor.is_finite() { end } else { reach.seconds };
-        let bar = Bar { value: reach.seconds, low: end(reach.low()), high: end(reach.high()) };
-        let (name, color) = (summary.name(&series.way), series.way.color());
-        Some(BarRow { id: id(series), name, color, bar, text: answer::seconds(&reach), sure, shown })
-    };
-    let rows: Vec<BarRow> = summary.ranking.iter().filter_map(row).collect();
-    let least = rows.iter().map(|row| row.bar.value).reduce(f64::min)?;
-    let error = answer::percent(ERRORS[ORDER]);
-    let bars = Bars {
-        title: format!("{}: seconds to an error of {error}{}", summary.scene, summary.common()),
-        label: if summary.clock == Clock::Wall { "seconds" } else { "seconds of all threads together" }.to_owned(),
-        rows,
-        origin: 0.5 * least,
-    };
-    let caption = "Shorter is better. Hollow bars are beyond the images that were measured, or have an interval too wide to support a claim.";
-    Some(Figure { file: "seconds".to_owned(), shown_for: None, drawing: bars.draw(), caption: caption.to_owned() })
+    Measure::ALL.iter().flat_map(|m| Against::ALL.map(|a| error(summary, a, *m))).flatten().collect()
 }

@@ -3,13 +3,11 @@
 //! Each series is a separate group (`<g data-series="…">`), so that a page can switch it on and off.
 
 mod axis;
-mod bars;
 mod drawing;
 mod lines;
 mod text;
 
 pub use axis::{Bar, Scale};
-pub use bars::{BarRow, Bars};
 pub use drawing::{Drawing, color, dash};
 pub use lines::{Chart, Dot, Line};
 pub use text::{escape, short};

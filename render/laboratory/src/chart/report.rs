@@ -44,11 +44,10 @@ fn sections(outcome: &Outcome, figures: &[Vec<Figure>], stems: &[String]) -> Str
     for ((summary, figures), stem) in outcome.summaries.iter().zip(figures).zip(stems) {
         let _ = writeln!(text, "<section class=\"scene\">\n<h2>{}</h2>\n<div class=\"grid\">", escape(&summary.scene));
         for figure in figures {
-            let shown_for = figure.shown_for.map_or_else(String::new, |(against, measure)| {
-                let is_shown = against.is_shown(outcome.clock) && measure == Measure::Rms;
-                let class = if is_shown { "" } else { " class=\"off\"" };
-                format!("{class} data-against=\"{}\" data-measure=\"{}\"", against.name(), measure.name())
-            });
+            let (against, measure) = figure.shown_for;
+            let is_shown = against.is_shown(outcome.clock) && measure == Measure::Rms;
+            let class = if is_shown { "" } else { " class=\"off\"" };
+            let shown_for = format!("{class} data-against=\"{}\" data-measure=\"{}\"", against.name(), measure.name());
             let caption = escape(&figure.caption);
             let drawing = figure.drawing.inline();
             let file = format!("{stem}-{}.svg", figure.file);

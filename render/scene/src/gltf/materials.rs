@@ -113,17 +113,17 @@ impl Reader<'_, '_> {
             self.stand_in("unlit", "KHR_materials_unlit: a diffuse surface of its base colour stands for it");
         }
         let varying = self.metallic(material)?;
-        let read = if is_tinted { self.out.varied(varying) } else { self.out.vary(varying) };
-        let read = self.normals(material)?.map_or(read, |normals| self.out.relief(read, normals));
+        let read = if is_tinted { self.out.materials.varied(varying) } else { self.out.materials.vary(varying) };
+        let read = self.normals(material)?.map_or(read, |normals| self.out.materials.relief(read, normals));
         let mask = self.mask(material)?;
         let set = self.set;
         let glow = self.glow(material)?;
         if mask.is_some() && glow.is_some() {
             self.stand_in("light with holes", "a surface with holes that emits becomes opaque");
         }
-        let whole = self.out.material_of_sides(read, material.double_sided);
+        let whole = self.out.materials.material_of_sides(read, material.double_sided);
         let material = match mask {
-            Some(mask) if glow.is_none() => self.out.masked(whole, mask),
+            Some(mask) if glow.is_none() => self.out.materials.masked(whole, mask),
             _ => whole,
         };
         Ok(Surface { material, set, glow })

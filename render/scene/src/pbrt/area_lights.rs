@@ -1,11 +1,10 @@
 //! Reads `AreaLightSource`.
 
-use super::inputs::Files;
+use super::given::Given;
 use super::lights::{power, scale};
-use super::params::{Params, shown};
+use super::params::Params;
 use super::profiles::{self, Profile};
 use crate::distribution::Distribution;
-use crate::message::Notes;
 use crate::radiance::{brightness, luminance, radiances, rounded};
 use etendue::Real;
 use etendue_render::film::image::Picture;
@@ -38,29 +37,21 @@ pub(super) struct Area {
 pub(super) type Shown = HashMap<(Arc<str>, String), Arc<Texels>>;
 
 /// Reads an `AreaLightSource`.
-pub(super) fn read(
-    kind: &str,
-    params: &mut Params,
-    files: &Files<'_>,
-    known: &mut Shown,
-    notes: &mut Notes,
-) -> Result<Area, Message> {
-    if kind != "diffuse" && kind != "area" {
-        return Err(params.error("not supported, only \"diffuse\""));
-    }
-    let texels = match params.text("filename")? {
-        Some(name) => Some(shown_texels(&name, params, files, known, notes)?),
+pub(super) fn read(kind: &str, given: &mut Given<'_>, known: &mut Shown) -> Result<Area, Message> {
+    given.require(kind == "diffuse" || kind == "area", || "not supported, only \"diffuse\"")?;
+    let texels = match given.text("filename")? {
+        Some(name) => Some(shown_texels(&name, given, known)?),
         None => None,
     };
     // pbrt-v4 refuses a radiance beside a picture
-    let radiance = params.light("L", files)?.unwrap_or([1.0; 3]);
-    let power = power(params)?;
-    let scale = scale(params)?;
+    let radiance = given.light("L")?.unwrap_or([1.0; 3]);
+    let power = power(given)?;
+    let scale = scale(given)?;
     let scaled = std::array::from_fn(|k| radiance[k] * scale[k]);
     let power = power.map(|power| power * luminance(scaled) / luminance(radiance));
-    let two_sided = params.flag("twosided")?.unwrap_or(false);
-    let (profile, radiance) = match params.text("profile")? {
-        Some(name) => match distribution(&name, two_sided, params, files, notes)? {
+    let two_sided = given.flag("twosided")?.unwrap_or(false);
+    let (profile, radiance) = match given.text("profile")? {
+        Some(name) => match distribution(&name, two_sided, given)? {
             None => (None, [0.0; 3]),
             profile => (profile, scaled),
         },
@@ -68,23 +59,24 @@ pub(super) fn read(
     };
     let greatest = texels.as_ref().map_or([1.0; 3], |texels| texels.greatest().map(f64::from));
     let brightest: [f64; 3] = std::array::from_fn(|k| radiance[k] * greatest[k]);
-    let spread = spread(params)?;
-    if spread.is_some() && profile.is_some() {
-        return Err(params.error("\"spread\" and \"profile\": a light has one or the other"));
-    }
+    let spread = spread(given)?;
+    given.require(
+        spread.is_none() || profile.is_none(),
+        || "\"spread\" and \"profile\": a light has one or the other",
+    )?;
     // the greatest factor of the spread is on the axis, and that of a profile at most at its least cosine
     let gain = match &profile {
         Some(distribution) => distribution.opening.factor(X8::lit(0.0), X8::lit(1.0)).lane_f64(0),
         None => spread.map_or(1.0, |spread| f64::from(spread.tan_half) * f64::from(spread.gain)),
     };
     let most = (f64::from(MOST_RADIANCE) / gain) as f32;
-    let too_large = || params.error(format!("the radiance {brightest:?}: at most {most:e} is supported"));
+    let too_large = || given.error(format!("the radiance {brightest:?}: at most {most:e} is supported"));
     let brightest = rounded(brightest).filter(|rgb| rgb.iter().all(|&x| x <= most)).ok_or_else(too_large)?;
     let radiance = rounded(radiance).ok_or_else(too_large)?;
-    brightness(brightest).into_iter().for_each(|text| notes.warn(params.error(text)));
+    brightness(brightest).into_iter().for_each(|text| given.warn(text));
     let dark = brightest == [0.0; 3];
     if dark {
-        notes.warn(params.error("emits nothing"));
+        given.warn("emits nothing");
     }
     // pbrt's (0, 0) is the lower left corner
     let mapping = Mapping([[1.0, 0.0, 0.0], [0.0, -1.0, 1.0]]);
@@ -98,14 +90,8 @@ pub(super) fn read(
 }
 
 /// Reads the profile of an area light; `None` if the light is dark.
-fn distribution(
-    name: &str,
-    two_sided: bool,
-    params: &Params,
-    files: &Files<'_>,
-    notes: &mut Notes,
-) -> Result<Option<Distribution>, Message> {
-    let Some(Profile { intensity, aim, .. }) = profiles::read(name, params, files, notes)? else {
+fn distribution(name: &str, two_sided: bool, given: &mut Given<'_>) -> Result<Option<Distribution>, Message> {
+    let Some(Profile { intensity, aim, .. }) = profiles::read(name, given)? else {
         return Ok(None);
     };
     let ahead = aim.ahead();
@@ -121,20 +107,14 @@ fn distribution(
 }
 
 /// The texels of the picture of a light, which is read once.
-fn shown_texels(
-    name: &str,
-    params: &Params,
-    files: &Files<'_>,
-    known: &mut Shown,
-    notes: &mut Notes,
-) -> Result<Arc<Texels>, Message> {
-    let key = (Arc::clone(&params.place.file), name.to_owned());
+fn shown_texels(name: &str, given: &mut Given<'_>, known: &mut Shown) -> Result<Arc<Texels>, Message> {
+    let key = (Arc::clone(&given.place.file), name.to_owned());
     if let Some(texels) = known.get(&key) {
         return Ok(Arc::clone(texels));
     }
-    let image = files.image(name).map_err(|error| params.error(error.to_string()))?;
-    let (colors, warning) = radiances(&image, name, [1.0; 3]).map_err(|what| params.error(what))?;
-    warning.into_iter().for_each(|what| notes.warn(params.error(what)));
+    let image = given.files.image(name).map_err(|error| given.error(error.to_string()))?;
+    let (colors, warning) = radiances(&image, name, [1.0; 3]).map_err(|what| given.error(what))?;
+    warning.into_iter().for_each(|what| given.warn(what));
     let Picture { width, height, .. } = image;
     let texels = Arc::new(Texels { width, height, colors: Colors::Float(colors), alpha: None });
     known.insert(key, Arc::clone(&texels));
@@ -143,11 +123,7 @@ fn shown_texels(
 
 /// The spread of an area light: the full angle in degrees, as in Cycles. pbrt has none.
 fn spread(params: &mut Params) -> Result<Option<Spread<f32>>, Message> {
-    match params.float("spread")? {
-        None => Ok(None),
-        Some(angle) if !(0.1..=180.0).contains(&angle) => {
-            Err(params.error(format!("\"spread\": must be from 0.1 to 180 degrees, not {}", shown(angle))))
-        }
-        Some(angle) => Ok((angle < 180.0).then(|| Spread::new(angle.to_radians()))),
-    }
+    let Some(angle) = params.float("spread")? else { return Ok(None) };
+    params.bound("spread", angle, (0.1..=180.0).contains(&angle), "from 0.1 to 180 degrees")?;
+    Ok((angle < 180.0).then(|| Spread::new(angle.to_radians())))
 }

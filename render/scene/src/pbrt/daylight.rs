@@ -3,7 +3,7 @@
 //! The sky is an image of 512 × 512 texels, each
 //! of which has the mean of the formula at 16 places.
 
-use super::params::{Params, shown};
+use super::params::Params;
 use crate::radiance::{luminance, rounded};
 use etendue::light::{EnvironmentMap, ImageEnvironment, Texel};
 use etendue::{Real, Vec2, f32x8, u32x8};
@@ -34,17 +34,13 @@ pub(super) fn read(
     wanted: Option<f64>,
     to_light: &[[f32; 3]; 3],
 ) -> Result<Option<Daylight>, Message> {
-    if kind != "cie" {
-        return Err(params.error(format!("\"sky\": {kind:?} is not supported, only \"cie\"")));
-    }
+    params.require(kind == "cie", || format!("\"sky\": {kind:?} is not supported, only \"cie\""))?;
     let number = params.integer("type")?.unwrap_or(12);
     let sun = sun(params, WITHOUT_SUN.contains(&number))?;
     let sky = u32::try_from(number).ok().and_then(|number| GeneralSky::new(number, sun));
     let sky = sky.ok_or_else(|| params.error(format!("\"type\": must be from 1 to 15, not {number}")))?;
     let disk = params.float("sun")?.unwrap_or(0.0);
-    if !(0.0..=f64::MAX).contains(&disk) {
-        return Err(params.error(format!("\"sun\": must be at least 0, not {}", shown(disk))));
-    }
+    params.bound("sun", disk, (0.0..=f64::MAX).contains(&disk), "at least 0")?;
     let brightness = luminance(colour);
     let factor = match wanted {
         Some(wanted) if brightness > 0.0 => wanted / (brightness * sky.horizontal()),
@@ -79,13 +75,9 @@ fn sun(params: &mut Params, may_lack: bool) -> Result<[f64; 3], Message> {
     let Some(elevation) = params.float("elevation")? else {
         return if may_lack { Ok([0.0, 0.0, 1.0]) } else { Err(params.error("needs \"elevation\" for its sun")) };
     };
-    if !(0.0..=90.0).contains(&elevation) {
-        return Err(params.error(format!("\"elevation\": must be from 0 to 90 degrees, not {}", shown(elevation))));
-    }
+    params.bound("elevation", elevation, (0.0..=90.0).contains(&elevation), "from 0 to 90 degrees")?;
     let azimuth = params.float("azimuth")?.unwrap_or(180.0);
-    if !azimuth.is_finite() {
-        return Err(params.error(format!("\"azimuth\": must be finite, not {}", shown(azimuth))));
-    }
+    params.bound("azimuth", azimuth, azimuth.is_finite(), "finite")?;
     let [(s, c), (sin, cos)] = [elevation, azimuth].map(|degrees| (degrees.to_radians() / TAU).sin_cos_turns());
     Ok([c * sin, c * cos, s])
 }

@@ -1,12 +1,9 @@
 //! Reads point lights whose intensity differs by direction: `LightSource "goniometric"`, and `"spot"` with a `profile`.
 
-use super::inputs::Files;
-use super::lights::{power, scale, turned};
-use super::params::Params;
+use super::given::Given;
+use super::lights::{position, power, scale, turned};
 use super::profiles::{self, Profile};
-use crate::message::Notes;
 use crate::radiance::{brightness, luminance, rounded};
-use crate::transform::Transform;
 use etendue::SpotLight;
 use etendue_render::scene::intensity::Intensity;
 use etendue_render::scene::{Cone, DeltaLight, Message};
@@ -15,33 +12,24 @@ use etendue_render::scene::{Cone, DeltaLight, Message};
 ///
 /// It takes pbrt's square images, older ones of longitude and latitude, and IES files, which pbrt does not read: their
 /// candela values are the intensity, times `I` and `scale`.
-pub(super) fn read(
-    params: &mut Params,
-    ctm: &Transform,
-    files: &Files<'_>,
-    notes: &mut Notes,
-    table: u32,
-) -> Result<Option<(DeltaLight, Intensity)>, Message> {
-    let name = match params.text("filename")? {
-        None => params.text("mapname")?,
+pub(super) fn read(given: &mut Given<'_>, table: u32) -> Result<Option<(DeltaLight, Intensity)>, Message> {
+    let name = match given.text("filename")? {
+        None => given.text("mapname")?,
         name => name,
     };
-    let name = name.ok_or_else(|| params.error("needs the name of a file, as in \"string filename\" \"lamp.exr\""))?;
-    let tint = params.light("I", files)?.unwrap_or([1.0; 3]);
-    let scale = scale(params)?;
-    let power = power(params)?;
-    let profile = profiles::read(&name, params, files, notes)?;
-    let to_light = turned(params, ctm)?;
-    let position = ctm.point([0.0; 3]).map(|x| x as f32);
-    if !position.iter().all(|x| x.is_finite()) {
-        return Err(params.error(format!("its position {:?} is not finite in f32", ctm.point([0.0; 3]))));
-    }
+    let name = name.ok_or_else(|| given.error("needs the name of a file, as in \"string filename\" \"lamp.exr\""))?;
+    let tint = given.light("I")?.unwrap_or([1.0; 3]);
+    let scale = scale(given)?;
+    let power = power(given)?;
+    let profile = profiles::read(&name, given)?;
+    let to_light = turned(given)?;
+    let position = position(given, given.ctm.point([0.0; 3]))?;
     let Some(Profile { intensity: shape, greatest, aim }) = profile else {
-        notes.warn(params.error("emits nothing"));
+        given.warn("emits nothing");
         return Ok(None);
     };
     let color = tint.map(|x| x * greatest);
-    let Some(intensity) = strength(color, scale, power, || shape.flux(), params, notes)? else { return Ok(None) };
+    let Some(intensity) = strength(color, scale, power, || shape.flux(), given)? else { return Ok(None) };
     let to_light = aim.axes.map(|(axis, sign)| to_light[axis].map(|x| x * sign as f32));
     Ok(Some((DeltaLight::Directed { position, to_light, intensity, table, cone: None }, shape)))
 }
@@ -53,20 +41,18 @@ fn strength(
     scale: [f64; 3],
     power: Option<f64>,
     flux: impl FnOnce() -> f64,
-    params: &Params,
-    notes: &mut Notes,
+    given: &mut Given<'_>,
 ) -> Result<Option<[f32; 3]>, Message> {
     if let Some(power) = power {
         let emitted = luminance(color) * flux();
         color = color.map(|x| if emitted > 0.0 { x * power / emitted } else { 0.0 });
     }
     let color = std::array::from_fn(|k| color[k] * scale[k]);
-    let too_large =
-        || params.error(format!("its greatest intensity is {color:?}: at most {:e} is supported", f32::MAX));
+    let too_large = || given.error(format!("its greatest intensity is {color:?}: at most {:e} is supported", f32::MAX));
     let intensity = rounded(color).filter(|rgb| rgb.iter().all(|x| *x <= f32::MAX)).ok_or_else(too_large)?;
-    brightness(intensity).into_iter().for_each(|text| notes.warn(params.error(text)));
+    brightness(intensity).into_iter().for_each(|text| given.warn(text));
     if intensity == [0.0; 3] {
-        notes.warn(params.error("emits nothing"));
+        given.warn("emits nothing");
         return Ok(None);
     }
     Ok(Some(intensity))
@@ -78,9 +64,7 @@ pub(super) fn spot(
     spot: DeltaLight,
     (scale, power): ([f64; 3], Option<f64>),
     profile: Profile,
-    params: &Params,
-    ctm: &Transform,
-    notes: &mut Notes,
+    given: &mut Given<'_>,
     table: u32,
 ) -> Result<Option<(DeltaLight, Intensity)>, Message> {
     let DeltaLight::Spot { position, axis, one_minus_cos_inner, one_minus_cos_outer, intensity } = spot else {
@@ -90,12 +74,12 @@ pub(super) fn spot(
     let upright = SpotLight { position: [0.0; 3].into(), axis: ahead.into(), one_minus_cos_inner, one_minus_cos_outer };
     let flux = profile.intensity.flux_of_spot(&upright);
     if flux <= 0.0 {
-        notes.warn(params.error("emits nothing: its profile is dark in its cone"));
+        given.warn("emits nothing: its profile is dark in its cone");
         return Ok(None);
     }
     let color = intensity.map(|x| f64::from(x) * profile.greatest);
-    let Some(intensity) = strength(color, scale, power, || flux, params, notes)? else { return Ok(None) };
-    let to_light = profile.aim.aimed(axis.map(f64::from), ctm);
+    let Some(intensity) = strength(color, scale, power, || flux, given)? else { return Ok(None) };
+    let to_light = profile.aim.aimed(axis.map(f64::from), given.ctm);
     let cone = Some(Cone { axis, one_minus_cos_inner, one_minus_cos_outer, flux });
     Ok(Some((DeltaLight::Directed { position, to_light, intensity, table, cone }, profile.intensity)))
 }

@@ -1,6 +1,7 @@
 //! Reads `Camera`, `Film` and `Sampler`.
 
-use super::params::{Params, shown};
+use super::given::Given;
+use super::params::Params;
 use crate::message::Notes;
 use crate::nearest::did_you_mean;
 use crate::transform::{Transform, length, scaled};
@@ -10,48 +11,39 @@ use etendue_render::scene::{CameraSettings, FilmSettings, Lens, Message, Screen}
 use std::path::Path;
 
 /// Reads a `Camera`, which looks along +z of camera space, its transform to world space, and the time of exposure, whose unit
-/// pbrt does not tell. `ctm` is the transform from world space.
-pub(super) fn camera(
-    kind: &str,
-    params: &mut Params,
-    ctm: &Transform,
-    notes: &mut Notes,
-) -> Result<(CameraSettings, Transform, f64), Message> {
+/// pbrt does not tell. The transform that holds is that from world space.
+pub(super) fn camera(kind: &str, given: &mut Given<'_>) -> Result<(CameraSettings, Transform, f64), Message> {
     match kind {
         "perspective" | "orthographic" => {}
         "realistic" | "spherical" | "environment" => {
-            notes.stand_in(kind, || params.error("becomes a perspective one of 50 degrees"));
-            params.ignore_all();
-            params.set_float("fov", 50.0);
+            given.stand_in(kind, "becomes a perspective one of 50 degrees");
+            given.ignore_all();
+            given.set_float("fov", 50.0);
         }
-        _ => return Err(params.error("not supported, only \"perspective\", \"orthographic\" and stand-ins for others")),
+        _ => return Err(given.error("not supported, only \"perspective\", \"orthographic\" and stand-ins for others")),
     }
-    let [open, close] = [params.float("shutteropen")?.unwrap_or(0.0), params.float("shutterclose")?.unwrap_or(1.0)];
+    let [open, close] = [given.float("shutteropen")?.unwrap_or(0.0), given.float("shutterclose")?.unwrap_or(1.0)];
     // a shutter that does not open is one of pbrt-v3's stills
     let shutter = if close > open && (close - open).is_finite() { close - open } else { 1.0 };
-    let frame = params.float("frameaspectratio")?;
-    if let Some(frame) = frame.filter(|frame| !(*frame > 0.0 && frame.is_finite())) {
-        return Err(params.error(format!("\"frameaspectratio\": must be greater than 0, not {}", shown(frame))));
+    let frame = given.float("frameaspectratio")?;
+    if let Some(frame) = frame {
+        given.bound("frameaspectratio", frame, frame > 0.0 && frame.is_finite(), "greater than 0")?;
     }
     // in units of the half of a shorter side
-    let window = match params.numbers("screenwindow", "float", 4)?.as_deref() {
+    let window = match given.numbers("screenwindow", "float", 4)?.as_deref() {
         None => frame.map(|frame| [-frame.max(1.0), frame.max(1.0), -(1.0 / frame).max(1.0), (1.0 / frame).max(1.0)]),
         Some(&[left, right, lower, upper]) if left < right && lower < upper => Some([left, right, lower, upper]),
         Some(numbers) => {
-            return Err(params.error(format!("\"screenwindow\": {numbers:?} is not x0 x1 y0 y1, ascending")));
+            return Err(given.error(format!("\"screenwindow\": {numbers:?} is not x0 x1 y0 y1, ascending")));
         }
     };
-    let [radius, focus] = lens(params)?;
+    let [radius, focus] = lens(given)?;
     // as in pbrt-v3
-    let whole = params.float("halffov")?.filter(|half| *half > 0.0).map(|half| 2.0 * half);
-    let fov = whole.or(params.float("fov")?).unwrap_or(90.0);
-    if !(fov > 0.0 && fov < 180.0) {
-        return Err(
-            params.error(format!("\"fov\": must be greater than 0 and less than 180 degrees, not {}", shown(fov)))
-        );
-    }
-    let singular = || params.error("its transform is singular");
-    let world = ctm.inverse().ok_or_else(singular)?;
+    let whole = given.float("halffov")?.filter(|half| *half > 0.0).map(|half| 2.0 * half);
+    let fov = whole.or(given.float("fov")?).unwrap_or(90.0);
+    given.bound("fov", fov, fov > 0.0 && fov < 180.0, "greater than 0 and less than 180 degrees")?;
+    let singular = || given.error("its transform is singular");
+    let world = given.ctm.inverse().ok_or_else(singular)?;
     let forward = world.vector([0.0, 0.0, 1.0]);
     let unit = length(forward);
     let axis = |v: [f64; 3]| scaled(world.vector(v), 1.0 / unit);
@@ -60,9 +52,7 @@ pub(super) fn camera(
         lens.filter(|l| !((l.radius * unit) as f32).is_normal() || !((l.radius / l.focus) as f32).is_normal())
     {
         let Lens { radius, focus, .. } = lens;
-        return Err(
-            params.error(format!("a lens of radius {radius:e} focused at {focus:e} is out of the range of f32"))
-        );
+        return Err(given.error(format!("a lens of radius {radius:e} focused at {focus:e} is out of the range of f32")));
     }
     let half = match (kind, lens) {
         ("orthographic", None) => unit,
@@ -90,13 +80,9 @@ pub(super) fn camera(
 /// Radius of the lens, and distance of what is in focus.
 fn lens(params: &mut Params) -> Result<[f64; 2], Message> {
     let radius = params.float("lensradius")?.unwrap_or(0.0);
-    if radius < 0.0 {
-        return Err(params.error(format!("\"lensradius\": must be at least 0, not {}", shown(radius))));
-    }
     let focus = params.float("focaldistance")?.unwrap_or(1e6);
-    if focus <= 0.0 {
-        return Err(params.error(format!("\"focaldistance\": must be greater than 0, not {}", shown(focus))));
-    }
+    params.bound("lensradius", radius, radius >= 0.0, "at least 0")?;
+    params.bound("focaldistance", focus, focus > 0.0, "greater than 0")?;
     Ok([radius, focus])
 }
 
@@ -121,29 +107,25 @@ pub(super) fn fit(camera: &mut CameraSettings, film: &FilmSettings) {
 
 /// Reads a `Film`.
 pub(super) fn film(kind: &str, params: &mut Params) -> Result<FilmSettings, Message> {
-    if !["rgb", "image", "gbuffer", "spectral"].contains(&kind) {
-        return Err(params.error("not supported, only \"rgb\", and \"gbuffer\" and \"spectral\" as if they were that"));
-    }
+    params.require(
+        ["rgb", "image", "gbuffer", "spectral"].contains(&kind),
+        || "not supported, only \"rgb\", and \"gbuffer\" and \"spectral\" as if they were that",
+    )?;
     let width = params.integer("xresolution")?.unwrap_or(1280);
     let height = params.integer("yresolution")?.unwrap_or(720);
     // a negative number is a very large one here
-    if !is_size(width as u64, height as u64) {
-        return Err(
-            params.error(format!("{width} × {height} pixels: each side must be 1 to 65536, and the area at most 2^28"))
-        );
-    }
+    params.require(is_size(width as u64, height as u64), || {
+        format!("{width} × {height} pixels: each side must be 1 to 65536, and the area at most 2^28")
+    })?;
     let diagonal = params.float("diagonal")?.unwrap_or(35.0);
-    if !(1e-2..=1e6).contains(&diagonal) {
-        return Err(params.error(format!("\"diagonal\": must be from 1e-2 to 1e6 mm, not {diagonal:e}")));
-    }
+    params.require((1e-2..=1e6).contains(&diagonal), || {
+        format!("\"diagonal\": must be from 1e-2 to 1e6 mm, not {diagonal:e}")
+    })?;
     // a file that is read writes to no other folder; users can
     let name = |text: String| Path::new(&text).file_name().map(|name| name.to_string_lossy().into_owned());
     let filename = params.text("filename")?.and_then(name);
     let iso = params.float("iso")?.unwrap_or(100.0);
-    if !(iso > 0.0 && iso.is_finite()) {
-        return Err(params.error(format!("\"iso\": must be greater than 0, not {}", shown(iso))));
-    }
-    let exposure = iso / 100.0;
+    let exposure = params.bound("iso", iso, iso > 0.0 && iso.is_finite(), "greater than 0")? / 100.0;
     let whole = [width as u32, height as u32];
     let Some([x0, y0, x1, y1]) = window(params, whole)?.filter(|area| *area != [0, 0, whole[0], whole[1]]) else {
         return Ok(FilmSettings { width: whole[0], height: whole[1], diagonal, filename, place: None, exposure });
@@ -171,9 +153,7 @@ fn window(params: &mut Params, [width, height]: [u32; 2]) -> Result<Option<Area>
     };
     let [x0, x1] = [x0, x1].map(|x| x.clamp(0.0, width.into()) as u32);
     let [y0, y1] = [y0, y1].map(|y| y.clamp(0.0, height.into()) as u32);
-    if x0 >= x1 || y0 >= y1 {
-        return Err(params.error(format!("{name:?}: no pixel of {width} × {height} is in it")));
-    }
+    params.require(x0 < x1 && y0 < y1, || format!("{name:?}: no pixel of {width} × {height} is in it"))?;
     Ok(Some([x0, y0, x1, y1]))
 }
 

@@ -1,12 +1,12 @@
 //! Reads `LightSource`.
 
 use super::daylight;
-use super::inputs::Files;
+use super::given::Given;
 use super::params::{Params, shown};
 use super::portals;
-use crate::message::{Notes, shortened};
+use crate::message::shortened;
 use crate::radiance::{brightness, luminance, rounded, sky_of};
-use crate::transform::{Transform, one_minus_cos, sub};
+use crate::transform::{one_minus_cos, sub};
 use etendue::light::{EnvironmentMap, Portal};
 use etendue_render::scene::limits::MOST_RADIANCE;
 use etendue_render::scene::{DeltaLight, Environment, Message, SkyRadiance};
@@ -21,60 +21,53 @@ pub(super) enum Source {
 }
 
 /// Reads a `LightSource`.
-pub(super) fn read(
-    kind: &str,
-    params: &mut Params,
-    ctm: &Transform,
-    files: &Files<'_>,
-    notes: &mut Notes,
-) -> Result<Source, Message> {
-    if !["point", "spot", "distant", "infinite"].contains(&kind) {
-        return Err(
-            params.error("not supported, only \"point\", \"spot\", \"distant\", \"infinite\" and \"goniometric\"")
-        );
-    }
+pub(super) fn read(kind: &str, given: &mut Given<'_>) -> Result<Source, Message> {
+    given.require(
+        ["point", "spot", "distant", "infinite"].contains(&kind),
+        || "not supported, only \"point\", \"spot\", \"distant\", \"infinite\" and \"goniometric\"",
+    )?;
     let is_sky = kind == "infinite";
-    let file = match if is_sky { params.text("filename")? } else { None } {
-        None if is_sky => params.text("mapname")?,
+    let file = match if is_sky { given.text("filename")? } else { None } {
+        None if is_sky => given.text("mapname")?,
         file => file,
     };
-    let portals = if is_sky { portals::read(params)? } else { Vec::new() };
+    let portals = if is_sky { portals::read(given)? } else { Vec::new() };
     // older files scale by a colour
-    let scale = scale(params)?;
+    let scale = scale(given)?;
     let name = if kind == "point" || kind == "spot" { "I" } else { "L" };
-    let colour = params.light(name, files)?;
+    let colour = given.light(name)?;
     let wanted = match kind {
-        "point" | "spot" => params.float("power")?,
-        _ => params.float("illuminance")?,
+        "point" | "spot" => given.float("power")?,
+        _ => given.float("illuminance")?,
     };
     if let Some(x) = wanted.filter(|&x| x <= 0.0) {
-        return Err(params.error(format!("\"power\" or \"illuminance\": must be greater than 0, not {}", shown(x))));
+        return Err(given.error(format!("\"power\" or \"illuminance\": must be greater than 0, not {}", shown(x))));
     }
-    let formula = if is_sky { params.text("sky")? } else { None };
+    let formula = if is_sky { given.text("sky")? } else { None };
     let strength = Strength { colour, scale, wanted };
     let source = match (file, formula) {
         (Some(file), Some(_)) => {
             return Err(
-                params.error(format!("\"sky\" and \"filename\" {}: a sky has one or the other", shortened(&file)))
+                given.error(format!("\"sky\" and \"filename\" {}: a sky has one or the other", shortened(&file)))
             );
         }
         (None, Some(formula)) => {
-            let (to_light, given) = (turned(params, ctm)?, colour.unwrap_or([1.0; 3]));
-            let daylight = daylight::read(&formula, params, given, scale, wanted, &to_light)?;
+            let (to_light, own) = (turned(given)?, colour.unwrap_or([1.0; 3]));
+            let daylight = daylight::read(&formula, given, own, scale, wanted, &to_light)?;
             let light = |(sky, sun)| Source::Environment(Environment { to_light, sky, portals, sun });
             daylight.map_or(Source::Dark, light)
         }
         (Some(file), None) => {
-            let to_light = turned(params, ctm)?;
-            match pictured(&file, &strength, params, files, notes)? {
+            let to_light = turned(given)?;
+            match pictured(&file, &strength, given)? {
                 Some(sky) => Source::Environment(Environment { to_light, sky, portals, sun: None }),
                 None => Source::Dark,
             }
         }
-        (None, None) => even(kind, name, &strength, params, ctm, portals, notes)?,
+        (None, None) => even(kind, name, &strength, given, portals)?,
     };
     if matches!(source, Source::Dark) {
-        notes.warn(params.error("emits nothing"));
+        given.warn("emits nothing");
     }
     Ok(source)
 }
@@ -92,26 +85,24 @@ struct Strength {
 fn pictured(
     file: &str,
     &Strength { colour, scale, wanted }: &Strength,
-    params: &Params,
-    files: &Files<'_>,
-    notes: &mut Notes,
+    given: &mut Given<'_>,
 ) -> Result<Option<SkyRadiance>, Message> {
-    let image = files.image(file).map_err(|error| params.error(error.to_string()))?;
-    let shown = |scale| sky_of(&image, file, scale).map_err(|what| params.error(what));
+    let image = given.files.image(file).map_err(|error| given.error(error.to_string()))?;
+    let shown = |given: &Given<'_>, scale| sky_of(&image, file, scale).map_err(|what| given.error(what));
     // pbrt-v3 multiplies both, and pbrt-v4 refuses them
     let colour = colour.unwrap_or([1.0; 3]);
     let factor = match wanted {
-        Some(wanted) => match shown(colour)?.0.map_or(0.0, |sky| illuminance(&sky)) {
+        Some(wanted) => match shown(given, colour)?.0.map_or(0.0, |sky| illuminance(&sky)) {
             0.0 => {
-                notes.warn(params.error("\"illuminance\" is ignored: the upper half of the sky is dark"));
+                given.warn("\"illuminance\" is ignored: the upper half of the sky is dark");
                 1.0
             }
             own => wanted / own,
         },
         None => 1.0,
     };
-    let (sky, warning) = shown(std::array::from_fn(|k| scale[k] * colour[k] * factor))?;
-    warning.into_iter().for_each(|what| notes.warn(params.error(what)));
+    let (sky, warning) = shown(given, std::array::from_fn(|k| scale[k] * colour[k] * factor))?;
+    warning.into_iter().for_each(|what| given.warn(what));
     Ok(sky)
 }
 
@@ -120,17 +111,15 @@ fn even(
     kind: &str,
     name: &str,
     &Strength { colour, scale, wanted }: &Strength,
-    params: &mut Params,
-    ctm: &Transform,
+    given: &mut Given<'_>,
     portals: Vec<Portal>,
-    notes: &mut Notes,
 ) -> Result<Source, Message> {
     let mut colour = colour.unwrap_or([1.0; 3]);
     if let Some(wanted) = wanted {
         // what a light of the intensity or radiance 1 has
         let per_unit = match kind {
             "point" => 4.0 * PI,
-            "spot" => spot_angle(params)?,
+            "spot" => spot_angle(given)?,
             "distant" => 1.0,
             _ => PI,
         };
@@ -139,20 +128,16 @@ fn even(
     }
     let colour = std::array::from_fn(|k| colour[k] * scale[k]);
     let most = if kind == "infinite" { MOST_RADIANCE } else { f32::MAX };
-    let too_large = || params.error(format!("{name:?} times \"scale\" is {colour:?}: at most {most:e} is supported"));
+    let too_large = || given.error(format!("{name:?} times \"scale\" is {colour:?}: at most {most:e} is supported"));
     let colour = rounded(colour).filter(|rgb| rgb.iter().all(|x| *x <= most)).ok_or_else(too_large)?;
-    brightness(colour).into_iter().for_each(|text| notes.warn(params.error(text)));
-    let source = constant(kind, params, ctm, colour, portals)?;
+    brightness(colour).into_iter().for_each(|text| given.warn(text));
+    let source = constant(kind, given, colour, portals)?;
     Ok(if colour == [0.0; 3] { Source::Dark } else { source })
 }
 
 /// Reads the power that a light shall have.
 pub(super) fn power(params: &mut Params) -> Result<Option<f64>, Message> {
-    let power = params.float("power")?;
-    match power.filter(|&x| x <= 0.0) {
-        Some(x) => Err(params.error(format!("\"power\": must be greater than 0, not {}", shown(x)))),
-        None => Ok(power),
-    }
+    params.float("power")?.map(|power| params.bound("power", power, power > 0.0, "greater than 0")).transpose()
 }
 
 /// The factor of a light; older files have one for each channel.
@@ -163,10 +148,8 @@ pub(super) fn scale(params: &mut Params) -> Result<[f64; 3], Message> {
         [r, g, b] => [r, g, b],
         _ => return Err(params.error(format!("\"scale\": expected one number, found {}", scale.len()))),
     };
-    match scale.iter().find(|&&x| x < 0.0) {
-        Some(x) => Err(params.error(format!("\"scale\": must be at least 0, not {}", shown(*x)))),
-        None => Ok(scale),
-    }
+    scale.into_iter().try_for_each(|x| params.bound("scale", x, x >= 0.0, "at least 0").map(|_| ()))?;
+    Ok(scale)
 }
 
 /// The power of a spot light of intensity 1 by pbrt's formula, which takes the mean of both cones: an angle in steradians.
@@ -219,56 +202,41 @@ fn facing(map: EnvironmentMap, [width, height]: [usize; 2], [x, y]: [usize; 2]) 
     if sum > 1e-7 * map.texel_solid_angle(width, height, y) { sum } else { 0.0 }
 }
 
-fn constant(
-    kind: &str,
-    params: &mut Params,
-    ctm: &Transform,
-    colour: [f32; 3],
-    portals: Vec<Portal>,
-) -> Result<Source, Message> {
-    let mut point = |name: &str, default: [f64; 3]| -> Result<[f64; 3], Message> {
-        let Some(p) = params.numbers(name, "point3", 3)? else { return Ok(default) };
+fn constant(kind: &str, given: &mut Given<'_>, colour: [f32; 3], portals: Vec<Portal>) -> Result<Source, Message> {
+    let point = |given: &mut Given<'_>, name: &str, default: [f64; 3]| -> Result<[f64; 3], Message> {
+        let Some(p) = given.numbers(name, "point3", 3)? else { return Ok(default) };
         <[f64; 3]>::try_from(&p[..])
-            .map_err(|_| params.error(format!("{name:?}: expected three numbers, found {}", p.len())))
+            .map_err(|_| given.error(format!("{name:?}: expected three numbers, found {}", p.len())))
     };
     if kind == "infinite" {
         return Ok(Source::Environment(Environment {
-            to_light: turned(params, ctm)?,
+            to_light: turned(given)?,
             sky: SkyRadiance::Constant(colour),
             portals,
             sun: None,
         }));
     }
-    let from = point("from", [0.0; 3])?;
-    let position = ctm.point(from).map(|x| x as f32);
-    if !position.iter().all(|x| x.is_finite()) {
-        return Err(params.error(format!("its position {:?} is not finite in f32", ctm.point(from))));
-    }
+    let from = point(given, "from", [0.0; 3])?;
+    let position = position(given, given.ctm.point(from))?;
     if kind == "point" {
         return Ok(Source::Delta(DeltaLight::Point { position, intensity: colour }));
     }
-    let to = point("to", [0.0, 0.0, 1.0])?;
-    let axis = ctm.direction(sub(to, from), 1e-12);
-    let axis = axis.ok_or_else(|| params.error(format!("\"from\" {from:?} and \"to\" {to:?} define no direction")))?;
+    let to = point(given, "to", [0.0, 0.0, 1.0])?;
+    let axis = given.ctm.direction(sub(to, from), 1e-12);
+    let axis = axis.ok_or_else(|| given.error(format!("\"from\" {from:?} and \"to\" {to:?} define no direction")))?;
     if kind == "distant" {
         let direction = axis.map(|x| -x as f32);
         return Ok(Source::Delta(DeltaLight::Distant { direction, irradiance: colour }));
     }
-    if ctm.similarity().is_none() {
-        return Err(params
-            .error("its transform stretches its cone: only rotations, reflections and uniform scales are supported"));
-    }
-    let outer = params.float("coneangle")?.unwrap_or(30.0);
-    let delta = params.float("conedeltaangle")?.unwrap_or(5.0);
-    if !(outer > 0.0 && outer <= 180.0) {
-        return Err(params
-            .error(format!("\"coneangle\": must be greater than 0 and at most 180 degrees, not {}", shown(outer))));
-    }
-    if !(0.0..=outer).contains(&delta) {
-        return Err(
-            params.error(format!("\"conedeltaangle\": must be from 0 to the cone angle {outer}, not {}", shown(delta)))
-        );
-    }
+    given.require(
+        given.ctm.similarity().is_some(),
+        || "its transform stretches its cone: only rotations, reflections and uniform scales are supported",
+    )?;
+    let outer = given.float("coneangle")?.unwrap_or(30.0);
+    let delta = given.float("conedeltaangle")?.unwrap_or(5.0);
+    given.bound("coneangle", outer, outer > 0.0 && outer <= 180.0, "greater than 0 and at most 180 degrees")?;
+    let range = format!("from 0 to the cone angle {outer}");
+    given.bound("conedeltaangle", delta, (0.0..=outer).contains(&delta), &range)?;
     let [one_minus_cos_inner, one_minus_cos_outer] =
         [outer - delta, outer].map(|degrees| one_minus_cos(degrees.to_radians()) as f32);
     let axis = axis.map(|x| x as f32);
@@ -276,8 +244,15 @@ fn constant(
     Ok(Source::Delta(DeltaLight::Spot { position, axis, one_minus_cos_inner, one_minus_cos_outer, intensity }))
 }
 
+/// The position of a light in world space.
+pub(super) fn position(params: &Params, p: [f64; 3]) -> Result<[f32; 3], Message> {
+    let rounded = p.map(|x| x as f32);
+    params.require(rounded.iter().all(|x| x.is_finite()), || format!("its position {p:?} is not finite in f32"))?;
+    Ok(rounded)
+}
+
 /// The rotation from world space to light space.
-pub(super) fn turned(params: &Params, ctm: &Transform) -> Result<[[f32; 3]; 3], Message> {
-    let stretched = || params.error("its transform may only consist of rotations, reflections and uniform scales");
-    ctm.axes().ok_or_else(stretched)
+pub(super) fn turned(given: &Given<'_>) -> Result<[[f32; 3]; 3], Message> {
+    let stretched = || given.error("its transform may only consist of rotations, reflections and uniform scales");
+    given.ctm.axes().ok_or_else(stretched)
 }

@@ -48,7 +48,7 @@ impl NamedMaterials {
             Finish::Invisible | Finish::Mix(_) => None,
             Finish::Awaited(index) => match self.get(&self.awaited[index].name) {
                 Some(finish) => self.of_shape(finish, out),
-                None => Some(*self.awaited[index].promise.get_or_insert_with(|| out.promise())),
+                None => Some(*self.awaited[index].promise.get_or_insert_with(|| out.materials.promise())),
             },
         }
     }
@@ -60,7 +60,7 @@ impl NamedMaterials {
             match self.get(name) {
                 Some(finish @ (Finish::Of(_) | Finish::Mix(_))) => {
                     if let Finish::Of(material) = greatest(finish, mixtures) {
-                        out.keep(*promise, material);
+                        out.materials.keep(*promise, material);
                     }
                 }
                 Some(_) => return Err(place.message(format!("{shown:?} is no surface: define it before its shapes"))),
@@ -68,7 +68,7 @@ impl NamedMaterials {
                     let near = did_you_mean(name, self.defined.keys().map(String::as_str));
                     let why = "a diffuse surface of albedo 0.5 stands for it";
                     out.notes.misspelt(place.message(format!("no MakeNamedMaterial defines {shown:?}: {why}{near}")));
-                    out.keep(*promise, Material::Diffuse([0.5; 3]));
+                    out.materials.keep(*promise, Material::Diffuse([0.5; 3]));
                 }
             }
         }

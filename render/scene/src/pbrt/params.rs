@@ -146,20 +146,20 @@ impl Params {
             .ok_or_else(|| wrong(line, format!("parameter {name:?} has unknown type {:?}", shortened(kind))))?;
 
         let mut values = Values::new(kind);
-        let what = format!("a value of {name:?}");
-        let (token, at) = lexer.expect(&what)?;
-        if token == Token::Open {
-            loop {
-                let (token, at) = lexer.expect(&format!("the ] of {name:?}"))?;
-                if token == Token::Close {
-                    break;
-                }
-                let pushed = values.push(kind, token);
-                pushed.map_err(|why| lexer.place(at).message(format!("{owner}: {name:?}: {why}")))?;
+        let mut push = |lexer: &Lexer<'_>, (token, at): (Token<'_>, u32)| {
+            let pushed = values.push(kind, token);
+            pushed.map_err(|why| lexer.place(at).message(format!("{owner}: {name:?}: {why}")))
+        };
+        let mut next = lexer.expect(&format!("a value of {name:?}"))?;
+        if next.0 == Token::Open {
+            let what = format!("the ] of {name:?}");
+            next = lexer.expect(&what)?;
+            while next.0 != Token::Close {
+                push(lexer, next)?;
+                next = lexer.expect(&what)?;
             }
         } else {
-            let pushed = values.push(kind, token);
-            pushed.map_err(|why| lexer.place(at).message(format!("{owner}: {name:?}: {why}")))?;
+            push(lexer, next)?;
         }
         Ok(Param { kind, name, values, line })
     }
@@ -181,6 +181,16 @@ impl Params {
         self.place.message(format!("{}: {}", self.owner, text.as_ref()))
     }
 
+    /// An error at the directive's line, unless what is required holds.
+    pub(super) fn require<T: AsRef<str>>(&self, holds: bool, text: impl FnOnce() -> T) -> Result<(), Message> {
+        if holds { Ok(()) } else { Err(self.error(text())) }
+    }
+
+    /// A number that a parameter gives, if it is in this range.
+    pub(super) fn bound(&self, name: &str, x: f64, holds: bool, range: &str) -> Result<f64, Message> {
+        self.require(holds, || format!("{name:?}: must be {range}, not {}", shown(x))).map(|()| x)
+    }
+
     /// A message at one parameter's line.
     fn at(&self, param: &Param, text: impl AsRef<str>) -> Message {
         let place = Place { file: self.place.file.clone(), line: param.line };
@@ -193,18 +203,14 @@ impl Params {
         self.list.iter().position(|p| p.name == name)
     }
 
-    fn take(&mut self, name: &str, kind: &str) -> Result<Option<Param>, Message> {
-        let Some(i) = self.find(name) else { return Ok(None) };
-        let param = self.list.remove(i);
-        if param.kind != kind {
-            return Err(self.at(&param, format!("type {} is not supported, only {kind}", param.kind)));
-        }
-        Ok(Some(param))
-    }
-
     /// Numbers of type `kind`, whose count must be a multiple of `group`.
     pub(super) fn numbers(&mut self, name: &str, kind: &str, group: usize) -> Result<Option<Vec<f64>>, Message> {
-        let Some(param) = self.take(name, kind)? else { return Ok(None) };
+        self.numbers_of(name, &[kind], group)
+    }
+
+    /// Numbers of any of these types, whose count must be a multiple of `group`.
+    pub(super) fn numbers_of(&mut self, name: &str, kinds: &[&str], group: usize) -> Result<Option<Vec<f64>>, Message> {
+        let Some(param) = self.take(name, kinds)? else { return Ok(None) };
         let numbers = param.values.numbers().to_vec();
         if !numbers.len().is_multiple_of(group) {
             return Err(self.at(&param, format!("expected a multiple of {group} numbers, found {}", numbers.len())));
@@ -214,7 +220,7 @@ impl Params {
 
     /// The only value of a parameter of type `kind`.
     fn one<T: Clone>(&mut self, name: &str, kind: &str, of: fn(&Values) -> &[T]) -> Result<Option<T>, Message> {
-        let Some(param) = self.take(name, kind)? else { return Ok(None) };
+        let Some(param) = self.take(name, &[kind])? else { return Ok(None) };
         match of(&param.values) {
             [value] => Ok(Some(value.clone())),
             [] => Err(self.at(&param, "expected one value, found none")),
@@ -244,25 +250,17 @@ impl Params {
 
     /// Several `string`s.
     pub(super) fn texts(&mut self, name: &str) -> Result<Option<Vec<String>>, Message> {
-        Ok(self.take(name, "string")?.map(|param| param.values.texts().to_vec()))
+        Ok(self.take(name, &["string"])?.map(|param| param.values.texts().to_vec()))
     }
 
     /// Removes a parameter if it is of one of these types.
-    fn take_any(&mut self, name: &str, kinds: &[&str]) -> Result<Option<Param>, Message> {
+    fn take(&mut self, name: &str, kinds: &[&str]) -> Result<Option<Param>, Message> {
         let Some(i) = self.find(name) else { return Ok(None) };
         let param = self.list.remove(i);
         if kinds.contains(&param.kind) {
             return Ok(Some(param));
         }
         Err(self.at(&param, format!("type {} is not supported, only {}", param.kind, kinds.join(", "))))
-    }
-
-    /// Numbers of any of these types, whose count must be a multiple of `group`.
-    pub(super) fn numbers_of(&mut self, name: &str, kinds: &[&str], group: usize) -> Result<Option<Vec<f64>>, Message> {
-        match self.list.iter().find(|p| p.name == name && kinds.contains(&p.kind)).map(|param| param.kind) {
-            Some(kind) => self.numbers(name, kind, group),
-            None => self.take_any(name, kinds).map(|_| None),
-        }
     }
 
     /// The name of the texture as which a parameter is given, if it is.
@@ -279,7 +277,7 @@ impl Params {
             return Ok(Some(Color::Texture(texture)));
         }
         let kinds = ["rgb", "spectrum", "blackbody", "xyz", "texture", "float"];
-        let Some(param) = self.take_any(name, &kinds)? else { return Ok(None) };
+        let Some(param) = self.take(name, &kinds)? else { return Ok(None) };
         let wrong = |why: String| self.at(&param, why);
         Ok(Some(match (&param.values, param.kind) {
             (Values::Numbers(numbers), "blackbody") => match numbers[..] {

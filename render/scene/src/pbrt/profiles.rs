@@ -1,10 +1,8 @@
 //! Reads intensities by direction from IES files and images, and aims them along the axes of lights.
 
+use super::given::Given;
 use super::ies;
-use super::inputs::Files;
-use super::params::Params;
 use crate::distribution::{Aim, Axis};
-use crate::message::Notes;
 use crate::radiance::MOST_TEXELS;
 use etendue::light::EnvironmentMap;
 use etendue_render::film::image::Picture;
@@ -23,33 +21,28 @@ pub(super) struct Profile {
 /// Axes of the images of directions: pbrt has y up, and images have z.
 const UP: [Axis; 3] = [(0, 1.0), (2, 1.0), (1, 1.0)];
 /// Reads an IES file, or pbrt's square image of directions, or an older one of longitude and latitude; `None` if it is dark.
-pub(super) fn read(
-    name: &str,
-    params: &Params,
-    files: &Files<'_>,
-    notes: &mut Notes,
-) -> Result<Option<Profile>, Message> {
+pub(super) fn read(name: &str, given: &mut Given<'_>) -> Result<Option<Profile>, Message> {
     if !name.to_ascii_lowercase().ends_with(".ies") {
-        let image = picture(params, name, files)?;
-        return sphere(&image).map_err(|what| params.error(format!("{name}: {what}")));
+        let image = picture(given, name)?;
+        return sphere(&image).map_err(|what| given.error(format!("{name}: {what}")));
     }
     let ies::Photometry { intensity, greatest, aim, warnings } =
-        ies::read(name, files).map_err(|what| params.error(what))?;
-    warnings.into_iter().for_each(|what| notes.warn(params.error(what)));
+        ies::read(name, &given.files).map_err(|what| given.error(what))?;
+    warnings.into_iter().for_each(|what| given.warn(what));
     Ok((greatest > 0.0).then_some(Profile { intensity, greatest, aim }))
 }
 
 /// Reads an image without what no light can have.
-fn picture(params: &Params, name: &str, files: &Files<'_>) -> Result<Picture, Message> {
-    let image = files.image(name).map_err(|error| params.error(error.to_string()))?;
+fn picture(given: &Given<'_>, name: &str) -> Result<Picture, Message> {
+    let image = given.files.image(name).map_err(|error| given.error(error.to_string()))?;
     let (width, height) = (image.width, image.height);
-    if width * height > MOST_TEXELS {
-        return Err(params.error(format!("{name}: {width}×{height} texels: at most 2^26 are supported")));
-    }
+    given.require(width * height <= MOST_TEXELS, || {
+        format!("{name}: {width}×{height} texels: at most 2^26 are supported")
+    })?;
     let is_wrong = |rgb: &[f32; 3]| !rgb.iter().all(|x| (0.0..=f32::MAX).contains(x));
     if let Some(i) = image.radiance.iter().position(is_wrong) {
         let (x, y, texel) = (i % width, i / width, image.radiance[i]);
-        return Err(params.error(format!("{name}: texel ({x}, {y}) is {texel:?}: must be finite, and at least 0")));
+        return Err(given.error(format!("{name}: texel ({x}, {y}) is {texel:?}: must be finite, and at least 0")));
     }
     Ok(image)
 }

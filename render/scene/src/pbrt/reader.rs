@@ -3,6 +3,7 @@
 use super::area_lights::{self, Shown};
 use super::blocks::{Blocks, State};
 use super::film_and_camera;
+use super::given::Given;
 use super::includes::Includes;
 pub(super) use super::includes::Origin;
 use super::inputs::Files;
@@ -268,16 +269,17 @@ impl Reader<'_> {
         let params = Params::read(lexer, format!("Texture {:?}", shortened(&name)), place)?;
         let mut params = params.of("Texture", &kind);
         self.with_defaults("texture", &mut params);
-        let Self { textures, out, .. } = self;
-        let files = self.files.at(dir);
-        textures.define(&name, &value, &kind, &mut params, &files, &mut out.notes)?;
-        params.finish(&mut out.notes);
+        let Self { out, state, files, textures, .. } = self;
+        let files = files.at(dir);
+        let mut given = Given { params: &mut params, files, notes: &mut out.notes, ctm: &state.ctm };
+        textures.define(&name, &value, &kind, &mut given)?;
+        params.finish(&mut self.out.notes);
         Ok(())
     }
 
     fn with_params(&mut self, word: &str, kind: &str, mut params: Params, dir: &Path) -> Result<(), Message> {
         match word {
-            "Camera" => self.camera(kind, &mut params)?,
+            "Camera" => self.camera(kind, &mut params, dir)?,
             "Film" => self.film = Some(film_and_camera::film(kind, &mut params)?),
             "Sampler" => self.pixel_samples = Some(film_and_camera::samples(kind, &mut params, &mut self.out.notes)?),
             "PixelFilter" => {
@@ -314,7 +316,8 @@ impl Reader<'_> {
                 self.with_defaults("light", &mut params);
                 let Self { out, state, files, shown, .. } = self;
                 let files = files.at(dir);
-                state.area = area_lights::read(kind, &mut params, &files, shown, &mut out.notes)?;
+                let mut given = Given { params: &mut params, files, notes: &mut out.notes, ctm: &state.ctm };
+                state.area = area_lights::read(kind, &mut given, shown)?;
             }
             "LightSource" => {
                 self.with_defaults("light", &mut params);
@@ -337,9 +340,10 @@ impl Reader<'_> {
     }
 
     fn material(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<Finish, Message> {
-        let files = self.files.at(dir);
-        let context = Context { textures: &self.textures, named: &|name| self.named.get(name), files };
-        material_parameters::read(kind, params, &context, &mut self.mixtures, &mut self.out)
+        let Self { out, state, named, textures, files, mixtures, .. } = self;
+        let given = Given { params, files: files.at(dir), notes: &mut out.notes, ctm: &state.ctm };
+        let context = Context { textures, named: &|name| named.get(name), materials: &mut out.materials, given };
+        material_parameters::read(kind, context, mixtures)
     }
 
     fn warn(&mut self, place: &Place, text: String) {
@@ -358,11 +362,13 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn camera(&mut self, kind: &str, params: &mut Params) -> Result<(), Message> {
+    fn camera(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<(), Message> {
+        let Self { out, state, files, .. } = self;
+        let mut given = Given { params, files: files.at(dir), notes: &mut out.notes, ctm: &state.ctm };
         if self.camera.is_some() {
-            self.out.notes.warn(params.error("a second camera: the last one counts"));
+            given.warn("a second camera: the last one counts");
         }
-        let (camera, world, shutter) = film_and_camera::camera(kind, params, &self.state.ctm, &mut self.out.notes)?;
+        let (camera, world, shutter) = film_and_camera::camera(kind, &mut given)?;
         self.systems.insert("camera".into(), world);
         self.camera = Some(camera);
         self.shutter = shutter;
@@ -371,8 +377,7 @@ impl Reader<'_> {
 
     fn light(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<(), Message> {
         let Self { out, state, sources, files, .. } = self;
-        let files = files.at(dir);
-        sources.read(kind, params, &state.ctm, &files, &mut out.notes)
+        sources.read(kind, &mut Given { params, files: files.at(dir), notes: &mut out.notes, ctm: &state.ctm })
     }
 
     fn shape(&mut self, kind: &str, params: &mut Params, dir: &Path) -> Result<(), Message> {
@@ -389,7 +394,7 @@ impl Reader<'_> {
         for (index, (material, share)) in parts.into_iter().enumerate() {
             let mut again = (index < last).then(|| params.clone());
             let own = again.as_mut().unwrap_or(params);
-            let given = ShapeState {
+            let shape = ShapeState {
                 ctm: state.ctm,
                 reverse: state.reverse,
                 material,
@@ -398,7 +403,7 @@ impl Reader<'_> {
                 is_object: blocks.is_object(),
             };
             out.begin(own.place.message(""));
-            if let Some(surface) = given.attributes(kind, own, textures, named, out)? {
+            if let Some(surface) = shape.attributes(kind, own, files, textures, named, out)? {
                 shapes::read(kind, out, &surface, own, &files)?;
             }
         }

@@ -1,6 +1,8 @@
 //! What the graphics state of a scene file makes of a shape.
 
 use super::area_lights::Area;
+use super::given::Given;
+use super::inputs::Files;
 use super::material_parameters::Finish;
 use super::named_materials::NamedMaterials;
 use super::params::Params;
@@ -31,15 +33,14 @@ impl ShapeState {
         self,
         kind: &str,
         params: &mut Params,
+        files: Files<'_>,
         textures: &Textures,
         named: &mut NamedMaterials,
         out: &mut Builder,
     ) -> Result<Option<ShapeAttributes>, Message> {
         let det = self.ctm.determinant();
-        if det == 0.0 || !det.is_finite() {
-            return Err(params.error("its transform is singular"));
-        }
-        let opacity = textures.number("alpha", params, &mut out.notes)?;
+        params.require(det != 0.0 && det.is_finite(), || "its transform is singular")?;
+        let opacity = textures.number("alpha", &mut Given { params, files, notes: &mut out.notes, ctm: &self.ctm })?;
         let is_absent = |opacity: &Texture| opacity.constant().is_some_and(|[x, ..]| x <= 0.0);
         if opacity.as_ref().is_some_and(is_absent) && self.area.emission.is_none() {
             params.ignore_all();
@@ -86,10 +87,10 @@ impl ShapeState {
             flip: self.reverse != (det < 0.0),
             material: match mask {
                 Some(mask) if emission.is_none() => {
-                    let whole = out.material(material);
-                    out.masked(whole, mask)
+                    let whole = out.materials.material(material);
+                    out.materials.masked(whole, mask)
                 }
-                _ => out.material(material),
+                _ => out.materials.material(material),
             },
             emission,
             picture,

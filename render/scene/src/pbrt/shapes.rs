@@ -66,7 +66,7 @@ fn note_left_out(out: &mut Builder, params: &Params) {
 /// The factor by which its transform enlarges a shape that is kept as it is: unless it is stretched, textured or in an object.
 fn kept(out: &Builder, surface: &ShapeAttributes) -> Option<f64> {
     // what emits reflects by the means of its material
-    let varies = surface.emission.is_none() && out.varies(surface.material);
+    let varies = surface.emission.is_none() && out.materials.varies(surface.material);
     surface.ctm.similarity().filter(|_| !varies && !out.is_object())
 }
 
@@ -92,7 +92,7 @@ fn sphere(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> 
         out.add(surface, Geometry::Sphere(Sphere { center, radius }), || Mapping::IDENTITY);
         return Ok(());
     }
-    check_radius(radius, params)?;
+    params.bound("radius", radius, radius > 0.0, "greater than 0 and finite")?;
     tessellated(out, params, "a sphere that is partial, stretched, textured, in an object or emits inwards");
     let sweep = sweep.clamp(0.0, 360.0).to_radians();
     let angle = |z: f64| libm::acos((z / radius).clamp(-1.0, 1.0));
@@ -110,7 +110,7 @@ fn disk(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -> Re
     let (height, radius) = (params.float("height")?.unwrap_or(0.0), params.float("radius")?.unwrap_or(1.0));
     let inner = params.float("innerradius")?.unwrap_or(0.0);
     let degrees = params.float("phimax")?.unwrap_or(360.0).clamp(0.0, 360.0);
-    check_radius(radius, params)?;
+    params.bound("radius", radius, radius > 0.0, "greater than 0 and finite")?;
     let is_whole = inner == 0.0 && degrees >= 360.0 && surface.picture.is_none();
     if let Some(factor) = kept(out, surface).filter(|_| is_whole) {
         let center = surface.place(std::iter::once([0.0, 0.0, height])).map_err(|why| params.error(why))?;
@@ -134,7 +134,7 @@ fn cylinder(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -
     let radius = params.float("radius")?.unwrap_or(1.0);
     let [low, high] = [params.float("zmin")?.unwrap_or(-1.0), params.float("zmax")?.unwrap_or(1.0)];
     let sweep = params.float("phimax")?.unwrap_or(360.0).clamp(0.0, 360.0).to_radians();
-    check_radius(radius, params)?;
+    params.bound("radius", radius, radius > 0.0, "greater than 0 and finite")?;
     tessellated(out, params, "a cylinder");
     let half = sweep / 128.0;
     let grown = half / libm::sin(half).max(f64::MIN_POSITIVE);
@@ -147,11 +147,6 @@ fn cylinder(out: &mut Builder, surface: &ShapeAttributes, params: &mut Params) -
 /// The square root of the share of a sector that the triangle of its chord covers.
 fn polygon_share(angle: f64) -> f64 {
     if angle > 0.0 { (libm::sin(angle) / angle).sqrt() } else { 1.0 }
-}
-
-fn check_radius(radius: f64, params: &Params) -> Result<(), Message> {
-    let wrong = || params.error(format!("\"radius\": must be greater than 0 and finite, not {}", shown(radius)));
-    if radius > 0.0 { Ok(()) } else { Err(wrong()) }
 }
 
 /// Warns of a shape that becomes triangles.
@@ -205,9 +200,7 @@ fn points_and_faces<const N: usize>(params: &mut Params) -> Result<Faces<N>, Mes
     let points: Vec<_> = numbers.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect();
     let count = points.len();
     let Some(indices) = params.numbers("indices", "integer", N)? else {
-        if count != N {
-            return Err(params.error(format!("\"indices\" is missing: it is optional only for {N} points")));
-        }
+        params.require(count == N, || format!("\"indices\" is missing: it is optional only for {N} points"))?;
         return Ok((points, vec![std::array::from_fn(|i| i)]));
     };
     if let Some(i) = indices.iter().find(|&&i| i < 0.0 || i as usize >= count) {
@@ -228,9 +221,9 @@ fn indexed<const N: usize>(surface: &ShapeAttributes, params: &mut Params) -> Re
     let uvs = params.numbers_of("uv", &["point2", "vector2", "float"], 2)?.unwrap_or_default();
     let uvs: Vec<_> = uvs.chunks_exact(2).map(|uv| [uv[0], uv[1]]).collect();
     for (name, count) in [("N", normals.len()), ("uv", uvs.len())] {
-        if count != 0 && count != points.len() {
-            return Err(params.error(format!("{name:?} has {count} values for {} points", points.len())));
-        }
+        params.require(count == 0 || count == points.len(), || {
+            format!("{name:?} has {count} values for {} points", points.len())
+        })?;
     }
     let vertices = Vertices::new(points, placed_normals(surface, normals.into_iter()).collect(), uvs);
     Ok(Mesh { vertices, faces })
@@ -335,9 +328,9 @@ fn ply_mesh(
 
 /// Adds shapes of a built-in scene that are computed, which need no checks. Each light has its own radiance, times that of the surface.
 fn computed(out: &mut Builder, surface: &ShapeAttributes, params: &Params, name: &str) -> Result<(), Message> {
-    if surface.ctm != Transform::IDENTITY || surface.flip {
-        return Err(params.error(format!("builtin:{name} takes no transform")));
-    }
+    params.require(surface.ctm == Transform::IDENTITY && !surface.flip, || {
+        format!("builtin:{name} takes no transform")
+    })?;
     let mut add = |geometry: Geometry, radiance: [f64; 3]| {
         let emission = surface.emission.map(|emission| Emission {
             radiance: std::array::from_fn(|k| (f64::from(emission.radiance[k]) * radiance[k]) as f32),

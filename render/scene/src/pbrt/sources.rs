@@ -1,11 +1,8 @@
 //! What the `LightSource` directives of a scene file create.
 
-use super::inputs::Files;
+use super::given::Given;
 use super::lights::{self, Source};
-use super::params::Params;
 use super::{directed, portal_sides, profiles};
-use crate::message::Notes;
-use crate::transform::Transform;
 use etendue::light::{Portal, PortalEnvironment};
 use etendue_render::scene::intensity::Intensity;
 use etendue_render::scene::limits::MOST_RADIANCE;
@@ -25,48 +22,41 @@ pub(super) struct Sources {
 
 impl Sources {
     /// Reads a `LightSource`.
-    pub(super) fn read(
-        &mut self,
-        kind: &str,
-        params: &mut Params,
-        ctm: &Transform,
-        files: &Files<'_>,
-        notes: &mut Notes,
-    ) -> Result<(), Message> {
+    pub(super) fn read(&mut self, kind: &str, given: &mut Given<'_>) -> Result<(), Message> {
         let table = self.intensities.len() as u32;
         if kind == "goniometric" {
-            self.push(directed::read(params, ctm, files, notes, table)?);
+            self.push(directed::read(given, table)?);
             return Ok(());
         }
         if kind == "projection" {
-            notes.stand_in(kind, || params.error("lights of this type are left out"));
+            given.stand_in(kind, "lights of this type are left out");
             return Ok(());
         }
-        let profile = match if kind == "spot" { params.text("profile")? } else { None } {
+        let profile = match if kind == "spot" { given.text("profile")? } else { None } {
             // of its power, the falloff is only a part
             Some(name) => {
-                let given = (lights::scale(params)?, lights::power(params)?);
-                Some((profiles::read(&name, params, files, notes)?, given))
+                let strength = (lights::scale(given)?, lights::power(given)?);
+                Some((profiles::read(&name, given)?, strength))
             }
             None => None,
         };
-        match lights::read(kind, params, ctm, files, notes)? {
+        match lights::read(kind, given)? {
             Source::Delta(light) => match profile {
                 None => self.delta_lights.push(light),
-                Some((None, _)) => notes.warn(params.error("emits nothing")),
-                Some((Some(profile), given)) => {
-                    self.push(directed::spot(light, given, profile, params, ctm, notes, table)?);
+                Some((None, _)) => given.warn("emits nothing"),
+                Some((Some(profile), strength)) => {
+                    self.push(directed::spot(light, strength, profile, given, table)?);
                 }
             },
             Source::Environment(environment) => {
-                let facing = |portal: &Portal| (*portal, portal_sides::faces_away(params));
+                let facing = |portal: &Portal| (*portal, portal_sides::faces_away(given));
                 self.portals.extend(environment.portals.iter().map(facing));
                 self.environment = match self.environment.take() {
                     None => Some(environment),
                     Some(before) => {
                         let kept = before.clone();
                         both(before, environment).or_else(|| {
-                            notes.stand_in("second sky", || params.error("a second sky is ignored"));
+                            given.stand_in("second sky", "a second sky is ignored");
                             Some(kept)
                         })
                     }

@@ -5,7 +5,8 @@ use crate::vectors::{V3, dot, sub, unit};
 use core::f64::consts::PI;
 
 /// Reflectance of a smooth metal for unpolarised light at a cosine of the angle of incidence.
-pub(super) fn fresnel(cos: f64, eta: f64, k: f64) -> f64 {
+#[must_use]
+pub fn fresnel(cos: f64, eta: f64, k: f64) -> f64 {
     // r⊥ = (cosθ − w)/(cosθ + w), r∥ = (m² cosθ − w)/(m² cosθ + w) with w = √(m² − sin²θ), m = η + ik
     let (re, im) = (eta * eta - k * k - (1.0 - cos * cos), 2.0 * eta * k);
     let modulus = (re * re + im * im).sqrt();

@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 pub(super) const WIDTH: f64 = 480.0;
 pub(super) const HEIGHT: f64 = 350.0;
-/// Height of a row of a legend, or of bars.
+/// Height of a row of a legend.
 pub(super) const ROW: f64 = 19.0;
 /// Height of letters.
 pub(super) const TEXT: f64 = 13.0;
@@ -121,7 +121,7 @@ pub(super) struct Part {
 /// A drawing of a chart with its legend below. Its series are separate groups, which a page can hide.
 #[derive(Clone, Debug)]
 pub struct Drawing {
-    /// Height without legend and stacked rows.
+    /// Height without the legend.
     pub(super) height: f64,
     /// Height of the legend.
     pub(super) legend: f64,
@@ -132,46 +132,35 @@ pub struct Drawing {
     pub(super) parts: Vec<Part>,
     /// The legend.
     pub(super) key: Layer,
-    /// Height of a row if the parts are rows, which are stacked below one another; otherwise 0.
-    pub(super) row: f64,
 }
 
 impl Drawing {
-    fn svg(&self, height: f64, attributes: &str, contents: &str) -> String {
+    fn svg(&self, height: f64, contents: &str) -> String {
         let about = escape(&self.about);
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height}\" width=\"{WIDTH}\" height=\"{height}\" role=\"img\" \
-             aria-label=\"{about}\" font-family=\"sans-serif\"{attributes}>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n{contents}\
+             aria-label=\"{about}\" font-family=\"sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n{contents}\
              </svg>\n"
         )
     }
-    fn rows(&self) -> f64 {
-        self.row * self.parts.iter().filter(|p| p.shown).count() as f64
-    }
-    /// The parts, or only those shown, each below the previous one if they are rows.
-    fn stacked(&self, all: bool) -> String {
-        let (mut layer, mut y) = (Layer::default(), 0.0);
+    /// The parts, or only those shown.
+    fn series(&self, all: bool) -> String {
+        let mut layer = Layer::default();
         for part in self.parts.iter().filter(|p| all || p.shown) {
             let class = if part.shown { " data-best=\"\"" } else { " class=\"off\"" };
             let class = if all { class } else { "" };
-            let place = if self.row > 0.0 { format!(" transform=\"translate(0 {y})\"") } else { String::new() };
-            layer.group(&format!("data-series=\"{}\"{class}{place}", escape(&part.id)), &part.body);
-            y += if part.shown { self.row } else { 0.0 };
+            layer.group(&format!("data-series=\"{}\"{class}", escape(&part.id)), &part.body);
         }
         layer.0
     }
     /// A stand-alone SVG of the series that are shown, with the legend.
     #[must_use]
     pub fn file(&self) -> String {
-        let height = self.height + self.rows() + self.legend;
-        self.svg(height, "", &[&*self.frame.0, &self.stacked(false), &self.key.0].concat())
+        self.svg(self.height + self.legend, &[&*self.frame.0, &self.series(false), &self.key.0].concat())
     }
     /// An SVG of all series without the legend, for a page that has its own and can show those that are hidden at first.
     #[must_use]
     pub fn inline(&self) -> String {
-        let is_stacked = self.row > 0.0;
-        let attributes = format!(" data-top=\"{}\" data-row=\"{}\"", self.height, self.row);
-        let attributes = if is_stacked { &*attributes } else { "" };
-        self.svg(self.height + self.rows(), attributes, &[&*self.frame.0, &self.stacked(true)].concat())
+        self.svg(self.height, &[&*self.frame.0, &self.series(true)].concat())
     }
 }

@@ -95,7 +95,7 @@ impl Chart {
         let parts = self.lines.iter().map(part).collect();
         let shown: Vec<&Line> = self.lines.iter().filter(|l| l.shown).collect();
         let (key, legend) = legend(&shown, HEIGHT);
-        Drawing { height: HEIGHT, legend, about: self.title.clone(), frame, parts, key, row: 0.0 }
+        Drawing { height: HEIGHT, legend, about: self.title.clone(), frame, parts, key }
     }
 
     /// Title, axes and their labels.

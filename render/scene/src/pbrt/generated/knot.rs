@@ -1,6 +1,7 @@
 //! The built-in scene `knot`: a trefoil of neon tube, a million triangles that emit, in metres.
 
 use super::solids::{Point, Sink, round, scaled, sum};
+use crate::transform::{cross, length};
 use etendue_render::geometry::Geometry;
 use std::f64::consts::TAU;
 
@@ -20,7 +21,10 @@ fn curve(t: f64) -> [Point; 2] {
     let far = TORUS[0] + TORUS[1] * libm::cos(b);
     let (out, rise) = (-3.0 * TORUS[1] * libm::sin(b), 3.0 * TORUS[1] * libm::cos(b));
     let tangent = [out * libm::cos(a) - 2.0 * far * libm::sin(a), out * libm::sin(a) + 2.0 * far * libm::cos(a), rise];
-    [sum(CENTER, [far * libm::cos(a), far * libm::sin(a), TORUS[1] * libm::sin(b)]), unit(tangent)]
+    [
+        sum(CENTER, [far * libm::cos(a), far * libm::sin(a), TORUS[1] * libm::sin(b)]),
+        scaled(tangent, 1.0 / length(tangent)),
+    ]
 }
 
 /// The unit normal of the torus at the point of its knot: perpendicular to the curve, and the same after a turn.
@@ -29,16 +33,12 @@ fn normal(t: f64) -> Point {
     [libm::cos(b) * libm::cos(a), libm::cos(b) * libm::sin(a), libm::sin(b)]
 }
 
-fn unit(v: Point) -> Point {
-    scaled(v, 1.0 / (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt())
-}
-
 /// All 1,000,000 triangles, a closed surface with normals outwards.
 pub(super) fn tube(sink: &mut Sink) {
     let circle = |i: usize| -> Vec<Point> {
         let t = (i % ALONG) as f64 / ALONG as f64;
         let ([center, d], u) = (curve(t), normal(t));
-        let v = [d[1] * u[2] - d[2] * u[1], d[2] * u[0] - d[0] * u[2], d[0] * u[1] - d[1] * u[0]];
+        let v = cross(d, u);
         let angles = (0..AROUND).map(|j| TAU * j as f64 / AROUND as f64);
         let offset = |angle: f64| sum(scaled(u, TUBE * libm::cos(angle)), scaled(v, TUBE * libm::sin(angle)));
         angles.map(|angle| sum(center, offset(angle))).collect()

@@ -1,5 +1,8 @@
 //! Solids of triangles, and numbers that vary.
 
+pub(super) use crate::builder::round;
+pub(super) use crate::transform::{add as sum, scaled};
+use crate::transform::{cross, length, sub};
 use etendue_render::geometry::{Geometry, Parallelogram, Sphere};
 
 /// Receives shapes, each with a radiance in relation to others.
@@ -7,18 +10,6 @@ pub(super) type Sink<'a> = dyn FnMut(Geometry, [f64; 3]) + 'a;
 pub(super) type Point = [f64; 3];
 
 pub(super) const WHITE: [f64; 3] = [1.0; 3];
-
-pub(super) fn round(p: Point) -> [f32; 3] {
-    p.map(|x| x as f32)
-}
-
-pub(super) fn scaled(v: Point, s: f64) -> Point {
-    v.map(|x| x * s)
-}
-
-pub(super) fn sum(a: Point, b: Point) -> Point {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
-}
 
 /// A number in [0, 1) for each key (the finalizer of SplitMix64, applied to each word).
 pub(super) fn noise(key: &[i32]) -> f64 {
@@ -93,13 +84,12 @@ pub(super) fn ring(center: Point, radius: f64, thickness: f64, sides: usize, sin
 /// The sides of a thin prism between two points.
 pub(super) fn rod(from: Point, to: Point, radius: f64, sink: &mut Sink) {
     const SIDES: usize = 6;
-    let [x, y, z] = sum(to, scaled(from, -1.0));
-    let length = (x * x + y * y + z * z).sqrt();
+    let way = sub(to, from);
+    let ([x, _, z], length) = (way, length(way));
     // two unit vectors across: one horizontal, unless the rod is upright
     let level = libm::hypot(x, z);
     let u = if level > 1e-9 * length { [-z / level, 0.0, x / level] } else { [1.0, 0.0, 0.0] };
-    let [dx, dy, dz] = [x / length, y / length, z / length];
-    let v = [dy * u[2] - dz * u[1], dz * u[0] - dx * u[2], dx * u[1] - dy * u[0]];
+    let v = cross(way.map(|x| x / length), u);
     let around = |k: usize| {
         let angle = std::f64::consts::TAU * (k % SIDES) as f64 / SIDES as f64;
         sum(scaled(u, radius * libm::cos(angle)), scaled(v, radius * libm::sin(angle)))

@@ -1,6 +1,7 @@
 //! The mesh of the built-in scene `terrain`: a height field and 25 bumpy spheres.
 
 use super::solids::{Sink, triangle};
+use crate::transform::{add, length};
 
 /// Cells along each side of the height field.
 const CELLS: usize = 512;
@@ -88,29 +89,20 @@ fn icosahedron() -> Vec<[[f64; 3]; 3]> {
         [9, 8, 1],
     ];
     let t = (1.0 + 5f64.sqrt()) / 2.0;
-    let corners = [
-        [-1.0, t, 0.0],
-        [1.0, t, 0.0],
-        [-1.0, -t, 0.0],
-        [1.0, -t, 0.0],
-        [0.0, -1.0, t],
-        [0.0, 1.0, t],
-        [0.0, -1.0, -t],
-        [0.0, 1.0, -t],
-        [t, 0.0, -1.0],
-        [t, 0.0, 1.0],
-        [-t, 0.0, -1.0],
-        [-t, 0.0, 1.0],
-    ]
-    .map(normalized);
+    let corners: Vec<[f64; 3]> = (0..12)
+        .map(|i| {
+            let (x, y) = (if i % 2 == 0 { -1.0 } else { 1.0 }, if i % 4 < 2 { t } else { -t });
+            normalized([[x, y, 0.0], [0.0, x, y], [y, 0.0, x]][i / 4])
+        })
+        .collect();
     FACES.iter().map(|face| face.map(|i| corners[i])).collect()
 }
 
 fn middle(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    normalized([a[0] + b[0], a[1] + b[1], a[2] + b[2]])
+    normalized(add(a, b))
 }
 
 fn normalized(v: [f64; 3]) -> [f64; 3] {
-    let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+    let length = length(v);
     v.map(|x| x / length)
 }
