@@ -1,6 +1,7 @@
 //! Cosines after a linear map: against GGX, and the light of shapes against quadratures in double precision that know only the density.
 
 mod spheres;
+mod table;
 
 use core::f64::consts::{PI, TAU};
 use etendue::light::Polygon;

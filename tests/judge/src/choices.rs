@@ -1,7 +1,8 @@
 //! Judges choosers among lights against sums over all lights, and estimators by several strategies against each strategy alone.
 
 use crate::random::Random;
-use crate::stats::chi_square;
+use crate::stats::{self, chi_square};
+use crate::tolerances::SIGNIFICANCE;
 
 /// Chooses one of many lights.
 pub trait Chooser {
@@ -88,6 +89,36 @@ pub fn choices(chooser: &dyn Chooser, all: &[f64], draws: usize, seed: u64) -> C
         said.findings.push(format!("the estimate of all light is off by {off:.1e}"));
     }
     said
+}
+
+/// Lights are chosen as often as their probabilities say, of which the last is that of none, and the number that is left is uniform and independent of
+/// the light.
+///
+/// # Panics
+/// If that is not so.
+pub fn frequencies(name: &str, probabilities: &[f64], chosen: &[etendue::select::Choice<f32>]) {
+    let none = probabilities.len() - 1;
+    let (mut counts, mut left, mut pairs) = (vec![0_u64; none + 1], vec![0_u64; 64], Vec::new());
+    for choice in chosen {
+        counts[(choice.index as usize).min(none)] += 1;
+        // of a light that few numbers choose, the number left has few values
+        if choice.pmf > 5e-4 {
+            left[(choice.u * 64.0) as usize] += 1;
+            pairs.push((f64::from(choice.index), f64::from(choice.u)));
+        }
+    }
+    let expected: Vec<f64> = probabilities.iter().map(|p| p * chosen.len() as f64).collect();
+    let p = chi_square(&counts, &expected);
+    assert!(p > SIGNIFICANCE, "{name}: frequencies, p = {p}");
+    if let Some(first) = pairs.first() {
+        let p = stats::uniform(&left);
+        assert!(p > SIGNIFICANCE, "{name}: number left, p = {p}");
+        // without two lights that are often chosen there is nothing to correlate
+        if pairs.iter().any(|pair| pair.0 != first.0) {
+            let p = stats::two_sided(stats::correlation(&pairs) * (pairs.len() as f64).sqrt());
+            assert!(p > SIGNIFICANCE, "{name}: correlation, p = {p}");
+        }
+    }
 }
 
 /// A strategy on [0, 1]: where it samples, and its density.
