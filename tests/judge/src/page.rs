@@ -120,7 +120,7 @@ fn chart(all: &[Judgement]) -> String {
     let y = |error: f64| 20.0 + 40.0 * (0.0 - error.clamp(1e-7, 1.0).log10());
     let height = (24.0 + 14.0 * shown.len() as f64).max(350.0);
     let mut out = format!(
-        r#"<svg viewBox="0 0 860 {height}" style="width:860px;max-width:100%" font-family="sans-serif" font-size="11" fill="currentColor" role="img" aria-label="speed against accuracy">"#,
+        r#"<svg viewBox="0 0 940 {height}" style="width:940px;max-width:100%" font-family="sans-serif" font-size="11" fill="currentColor" role="img" aria-label="speed against accuracy">"#,
     );
     for power in -7..=0 {
         let at = y(10.0_f64.powi(power));
