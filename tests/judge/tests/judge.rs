@@ -6,7 +6,7 @@ use etendue_judge::lights::sampler::{Prepared, Sample, Sampler, Subject, own};
 use etendue_judge::lights::scene::Axis;
 use etendue_judge::lights::verdict::{Case, Effort, Judgement, judge};
 use etendue_judge::textbook;
-use etendue_oracle::{dot, length, sub, tier::cases, wide};
+use etendue_oracle::{dot, length, sub, wide};
 
 fn judged(subject: &Subject<'_>, seed: u64) -> Judgement {
     let judgement = judge(subject, Effort { quick: true, seed, page: false }, |_| ());
