@@ -44,7 +44,7 @@ def first_words():
 def write(folder, playground, charts):
     paragraph, about, picture, halves = first_words()
     links = [("playground/index.html", "Playground", "drag a light, and see where samples go")] if playground else []
-    links += [("atlas/atlas.html", "Atlas", "where the library and textbook formulas lose accuracy")]
+    links += [("judge.html", "Judgements", "where the library and textbook formulas lose accuracy")]
     items = [f'<li><a href="{path}">{name}</a>: {what}</li>' for path, name, what in links]
     items += [f'<li><a href="chart/{escape(name)}/report.html">{escape(name)}</a>: {escape(what)}</li>' for name, what in charts]
     figures = [f'<figure><img loading="lazy" src="{path}" alt="{escape(what)}"><figcaption>{escape(what)}</figcaption></figure>' for path, what in captions()]

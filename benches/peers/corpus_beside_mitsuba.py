@@ -36,52 +36,11 @@ import mitsuba as mi
 mi.set_variant('llvm_ad_rgb')
 mi.set_log_level(mi.LogLevel.Error)
 dr.set_thread_count(1)
+import mitsuba_emitters  # registers them
 from corpus import scenes
 from pbrt_scenes import Reader
 
 T = mi.ScalarTransform4f
-
-
-class Spot(mi.Emitter):
-    """pbrt's: between both cosines its intensity is a smoothstep of the cosine, where Mitsuba's is linear in the angle."""
-
-    def __init__(self, props):
-        super().__init__(props)
-        self.place, self.axis, self.colour = ([props[name + axis] for axis in '012'] for name in ['place', 'axis', 'colour'])
-        self.inner, self.outer = props['inner'], props['outer']
-        self.m_flags = mi.EmitterFlags.DeltaPosition
-
-    def intensity(self, w):
-        cosine = dr.dot(mi.Vector3f(self.axis), w)
-        t = dr.clip((cosine - self.outer) / (self.inner - self.outer), 0, 1)
-        return mi.Color3f(self.colour) * (t * t * (3 - 2 * t))
-
-    def eval(self, si, active=True):
-        return mi.Spectrum(0)
-
-    def sample_direction(self, it, sample, active=True):
-        ds = dr.zeros(mi.DirectionSample3f)
-        ds.p, ds.time, ds.pdf, ds.delta = mi.Point3f(self.place), it.time, 1, True
-        ds.emitter = mi.EmitterPtr(self)
-        ds.d = ds.p - it.p
-        ds.dist = dr.norm(ds.d)
-        ds.d /= ds.dist
-        return ds, dr.select(active, self.intensity(-ds.d) / dr.square(ds.dist), 0)
-
-    def pdf_direction(self, it, ds, active=True):
-        return mi.Float(0)
-
-    def eval_direction(self, it, ds, active=True):
-        return dr.select(active, self.intensity(-ds.d) / dr.square(ds.dist), 0)
-
-    def bbox(self):
-        return mi.ScalarBoundingBox3f(self.place)
-
-    def to_string(self):
-        return f'Spot[{self.inner}, {self.outer}]'
-
-
-mi.register_emitter('pbrt_spot', Spot)
 
 
 def rgb(value):

@@ -59,8 +59,8 @@ lanewise! {
     /// - Density: the pdf is acz/(π|w′|⁴) per steradian, which integrates to 1 over the hemisphere; 0 below the horizon.
     /// - Fit: a, b and c have the least ∫(f − g)²/g, where f is GGX with correlated masking, divided by its albedo, and g the pdf. Its root, the
     ///   standard deviation of f/g, is 0.04 to 0.2 where the view has a cosine over 0.8, up to 0.6 at cosines of 0.2, and more at grazing
-    ///   views of smooth surfaces, up to 9. As f/g stays finite, estimates by samples stay unbiased. `cargo run --release -p etendue-fit`
-    ///   prints it for all cells.
+    ///   views of smooth surfaces, up to 9. As f/g stays finite, estimates by samples stay unbiased. The test
+    ///   `no_transform_nearby_fits_better` prints it.
     /// - Degenerate input: a view below the horizon counts as one on the horizon, and has albedo 0.
     /// - Greatest error: the inverse is within 8 steps of 2⁻²⁴ of u, or that of a direction 2e−6 away times what the inverse of the map
     ///   stretches there, which is much for grazing views alone.

@@ -1,6 +1,7 @@
 //! Cosines after a linear map: against GGX, and the light of shapes against quadratures in double precision that know only the density.
 
 mod spheres;
+mod table;
 
 use core::f64::consts::{PI, TAU};
 use etendue::light::Polygon;
@@ -371,40 +372,22 @@ fn samplers_have_the_solid_angle() {
     assert!(count > 20, "{count} lights");
 }
 
-/// Whatever the input, nothing is infinite, and no pdf is NaN.
+/// A roughness that is no number, a view from below and a light in the plane of the point. The fuzz body `reflection` tries any numbers.
 #[test]
 fn degenerate_input_gives_nothing() {
     let up = Vec3::new(0.0, 0.0, 1.0_f32);
-    let views = [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.6, 0.0, 0.8], [0.0; 3]];
-    for alpha in [0.0, -1.0, 1e-30, 1e-4, 1.0, 1e30, f32::NAN, f32::INFINITY] {
-        for view in views {
-            let lobe = Reflection::new(alpha, up, Vec3::from(view));
-            assert!(lobe.albedo() >= 0.0 && lobe.albedo() <= 1.0);
-            if view[2] <= 0.0 {
-                assert_eq!(lobe.albedo(), 0.0);
-            }
-            let directions = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [-0.6, 0.0, 0.8]];
-            let no_directions = [[0.5, 0.7, f32::MAX], [f32::MAX, 0.5, 0.7], [0.5, 1e-38, 1e30]];
-            for w in directions.into_iter().chain(no_directions).map(Vec3::from) {
-                let pdf = lobe.pdf(w);
+    let [x, y] = [Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.0, 1.0, 0.0)];
+    for alpha in [f32::NAN, f32::INFINITY, 0.0, 0.3] {
+        for view in [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0; 3]].map(Vec3::from) {
+            let lobe = Reflection::new(alpha, up, view);
+            assert!((0.0..=1.0).contains(&lobe.albedo()) && (view.z > 0.0 || lobe.albedo() == 0.0), "{lobe:?}");
+            for w in [up, x, -up, Vec3::new(0.5, 0.7, f32::MAX)] {
+                let (pdf, u) = (lobe.pdf(w), lobe.invert(w));
                 assert!(pdf.is_finite() && pdf >= 0.0, "{alpha} {view:?} {w:?}: {pdf}");
-                let u = lobe.invert(w);
                 assert!((0.0..1.0).contains(&u.x) && (0.0..1.0).contains(&u.y));
             }
-            for (center, radius) in
-                [([0.0; 3], 0.0), ([0.0; 3], 1.0), ([1e30, 0.0, 0.0], 1e-30), ([0.0, 0.0, 1e-30], 1e-31)]
-            {
-                let part = lobe.sphere(Vec3::from(center), radius);
-                assert!((0.0..=3.2).contains(&part), "{alpha} {view:?} {center:?}: {part}");
-            }
-            let flat = Parallelogram::new(
-                Vec3::from([1.0, 0.0, 0.0]),
-                Vec3::from([0.0, 1.0, 0.0]),
-                Vec3::from([1.0, 1.0, 0.0]),
-            );
-            let sampler = flat.by_reflection(Vec3::default(), &lobe);
-            assert_eq!(sampler.sample(Vec2::new(0.5, 0.5)).pdf, 0.0);
-            assert_eq!(sampler.projected_solid_angle(), 0.0);
+            let sampler = Parallelogram::new(x, y, x + y).by_reflection(Vec3::default(), &lobe);
+            assert_eq!((sampler.sample(Vec2::new(0.5, 0.5)).pdf, sampler.projected_solid_angle()), (0.0, 0.0));
         }
     }
 }

@@ -61,7 +61,7 @@ impl<R: Real> Parallelogram<R> {
     /// - Domain: u in [0, 1)²; any parallelogram, from any side.
     /// - Density: the pdf is 1/Ω per steradian inside (and within the triangle's 12 ulp beyond), 0 outside.
     /// - Degenerate input: the point in the plane, zero area, or lengths whose sums overflow: Ω = 0 and pdf 0.
-    /// - Greatest error over the atlas: Ω 5e−7 relative. The direction is as for the triangle, if the point is at least 1e−5 of the
+    /// - Greatest error: Ω 5e−7 relative. The direction is as for the triangle, if the point is at least 1e−5 of the
     ///   parallelogram's size above its plane; add what half a step of 2⁻²⁴ in u₀ does to the direction, over the sine of the
     ///   elevation of the nearest corner, since u₀ = Ω₁/Ω, where the second triangle begins, is rounded. The inverse is as for
     ///   the triangle.

@@ -89,7 +89,7 @@ impl<R: Real> Triangle<R> {
     /// - Density: the pdf is 1/Ω per steradian inside (and within 12 ulp beyond), 0 outside.
     /// - Degenerate input: the point in the plane (also inside the triangle), zero area, or lengths whose sums overflow: Ω = 0
     ///   and pdf 0.
-    /// - Greatest error over the atlas (size, elevation, aspect ratio and distance), for edges taken as given: Ω 5e−7 relative,
+    /// - Greatest error over size, elevation, aspect ratio and distance, for edges taken as given: Ω 5e−7 relative,
     ///   except 7e−5 beside the middle of an edge that is a million times longer than the triangle is wide and than the point
     ///   is far; direction 5.4e−7 (1.4e−5 of the angular size where that nears π); distance 5.4e−7 of itself over |cos| at the
     ///   plane, and 5.4e−7 of the farthest vertex's. The inverse is that of a direction 6e−7 away, times the triangle's
@@ -127,7 +127,7 @@ impl<R: Real> Triangle<R> {
     /// - Density: the pdf is cosθ/Ω⊥ per steradian inside (and within 8 ulp beyond) and above the horizon, 0 elsewhere.
     /// - Degenerate input: the point in the plane (also inside the triangle), zero area, lengths whose sums overflow, or
     ///   nothing above the horizon: Ω⊥ = 0 and pdf 0; `sample` returns some vector, of unit length or 0.
-    /// - Greatest error: Ω⊥ 4e−7 relative, and at most 1e−5 over the atlas, slivers and points next to the triangle's plane
+    /// - Greatest error: Ω⊥ 4e−7 relative, and at most 1e−5 everywhere, slivers and points next to the triangle's plane
     ///   included, since products and heights that are small differences are formed in twice the working precision. It grows in
     ///   one case: overhead, by at most 5e−16 over the triangle's size and over the sine of the elevation above its plane (which
     ///   matters for sizes below 1e−6). Direction 6e−7, besides 8 steps of 2⁻²⁴ in u; next to the plane of a triangle that

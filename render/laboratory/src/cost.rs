@@ -1,4 +1,4 @@
-//! Time per sample: the one way in which the atlas and the benchmarks measure it.
+//! Time per sample: the one way in which the benchmarks measure it.
 //!
 //! Every routine is called once to warm up. Then the routines take turns, round after round (A B C A B C …), so that a change of the
 //! processor's clock or another program affects all of them alike. Each value is the mean over a few calls. The [`median`] over the rounds

@@ -1,7 +1,7 @@
 //! Measures the renderer: the error of every technique against its time.
 //!
 //! - [`chart`]: error against time on scenes, as a report with charts.
-//! - [`cost`]: time per sample, for the atlas and for the benchmarks.
+//! - [`cost`]: time per sample, for the benchmarks.
 //! - [`interrupt`]: what ends the program from outside.
 //! - [`options`]: what command lines share.
 //! - [`processor_time`]: the time that the processors spend for this program.

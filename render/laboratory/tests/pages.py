@@ -1,4 +1,4 @@
-"""Drives the pages of `etendue chart` and `etendue-atlas` in a headless Chromium: wide, narrow, by keyboard and in print.
+"""Drives the pages of `etendue chart` and `etendue-judge` in a headless Chromium: wide, narrow, by keyboard and in print.
 
 pages.py PROGRAMS [FOLDER]: the folder of the programs that write the pages, and a folder that keeps pictures of them. Half a minute, most of it for the
 measurements that the pages show."""
@@ -13,8 +13,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "core/playground/te
 from browser import Browser, find
 
 CHART = "etendue chart quads --quick --size 24x18 --spp 1,16 --replicates 2 -o"
-# the shape with the longest names, too
-ATLAS = "etendue-atlas --quick --shape triangle,projected-parallelogram -o"
+# which says that textbooks are wrong
+JUDGE = "etendue-judge own --quick --textbooks --page"
 # of A4 between margins of a centimetre, in CSS pixels
 PRINTED = 718
 CONTROLS = "button, select, input, textarea, summary, a[href], [tabindex]:not([tabindex='-1'])"
@@ -109,16 +109,17 @@ def printed(browser, page):
 def main():
     chromium = find()
     if not chromium:
-        print("pages.py: there is no Chromium here: the pages of `etendue chart` and `etendue-atlas` are not tested")
+        print("pages.py: there is no Chromium here: the pages of `etendue chart` and `etendue-judge` are not tested")
         return
     programs = Path(sys.argv[1]).resolve()
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)
-        for command in [f"{CHART} {folder / 'chart'}", f"{ATLAS} {folder / 'atlas'}"]:
+        for command, code in [(f"{CHART} {folder / 'chart'}", 0), (f"{JUDGE} {folder / 'judge.html'}", 1)]:
             program, *arguments = command.split()
-            subprocess.run([programs / program, *arguments], check=True, capture_output=True)
+            done = subprocess.run([programs / program, *arguments], capture_output=True, text=True)
+            assert done.returncode == code, f"{command}: {done.returncode}, {done.stderr}"
         browser = Browser(chromium)
-        for page in [folder / "chart/report.html", folder / "atlas/atlas.html"]:
+        for page in [folder / "chart/report.html", folder / "judge.html"]:
             for width in [1400, 400]:
                 fits(browser, page, width, width < 1000)
                 reached = by_tab(browser, page)

@@ -1,7 +1,7 @@
 //! Judges each sampler of a library in a process of its own, so that nothing that it does ends the judge.
 
 use crate::foreign::load;
-use crate::lights::figures::{Figure, Measured};
+use crate::lights::measured::{Figure, Measured};
 use crate::lights::scene::Axis;
 use crate::lights::verdict::{Case, Effort, Finding, Judgement, judge};
 use std::env::current_exe;

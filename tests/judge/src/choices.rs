@@ -1,7 +1,8 @@
-//! Judges choosers among lights against sums over all lights, and estimators by several strategies against each strategy alone.
+//! Judges choosers among lights against sums over all lights.
 
 use crate::random::Random;
-use crate::stats::chi_square;
+use crate::stats::{self, chi_square};
+use crate::tolerances::SIGNIFICANCE;
 
 /// Chooses one of many lights.
 pub trait Chooser {
@@ -90,58 +91,32 @@ pub fn choices(chooser: &dyn Chooser, all: &[f64], draws: usize, seed: u64) -> C
     said
 }
 
-/// A strategy on [0, 1]: where it samples, and its density.
-#[derive(Clone, Copy)]
-pub struct Strategy {
-    /// The point for `u`.
-    pub sample: fn(f64) -> f64,
-    /// The density of a point.
-    pub pdf: fn(f64) -> f64,
-}
-/// Uniform, linear and quadratic strategies, and one that samples the first half only.
-pub const STRATEGIES: [Strategy; 4] = [
-    Strategy { sample: |u| u, pdf: |_| 1.0 },
-    Strategy { sample: f64::sqrt, pdf: |x| 2.0 * x },
-    Strategy { sample: f64::cbrt, pdf: |x| 3.0 * x * x },
-    Strategy { sample: |u| 0.5 * u, pdf: |x| if x < 0.5 { 2.0 } else { 0.0 } },
-];
-
-/// Judges weights of several strategies: the estimate of ∫ f by all of them together is that of each one alone that samples all of f.
-/// `weights` gets the densities of a point by all strategies. Returns what is wrong.
-pub fn weights(weights: impl Fn(&[f32]) -> Vec<f32>) -> Vec<String> {
-    const SAMPLES: usize = 1 << 16;
-    let mut findings = Vec::new();
-    for set in [&[0, 1][..], &[0, 2], &[1, 3], &[0, 1, 2], &[0, 1, 2, 3]] {
-        let used: Vec<Strategy> = set.iter().map(|i| STRATEGIES[*i]).collect();
-        let (mut together, mut worst) = (0.0, 0.0_f64);
-        // f = x (1 − x), whose integral is 1/6
-        let f = |x: f64| x * (1.0 - x);
-        for (k, strategy) in used.iter().enumerate() {
-            for i in 0..SAMPLES {
-                let x = (strategy.sample)((i as f64 + 0.5) / SAMPLES as f64);
-                let densities: Vec<f32> = used.iter().map(|s| (s.pdf)(x) as f32).collect();
-                let all = weights(&densities);
-                let sum: f64 = all.iter().copied().map(f64::from).sum();
-                worst = worst.max((sum - 1.0).abs());
-                let none = densities.iter().zip(&all).any(|(d, w)| *d == 0.0 && *w != 0.0);
-                if none || all.iter().any(|w| !(0.0..=1.0).contains(w)) {
-                    findings.push(format!("densities {densities:?} have the weights {all:?}"));
-                    return findings;
-                }
-                together += f64::from(all[k]) * f(x) / (strategy.pdf)(x) / SAMPLES as f64;
-            }
-        }
-        if !(worst <= 1e-6) {
-            findings.push(format!("strategies {set:?}: weights sum to 1 ± {worst:.1e}"));
-        }
-        for (i, alone) in set.iter().map(|i| (*i, STRATEGIES[*i])).filter(|s| s.0 != 3) {
-            let points = (0..SAMPLES).map(|k| (alone.sample)((k as f64 + 0.5) / SAMPLES as f64));
-            let mean = points.map(|x| f(x) / (alone.pdf)(x)).sum::<f64>() / SAMPLES as f64;
-            let off = (together / mean - 1.0).abs();
-            if !(off <= ERROR) {
-                findings.push(format!("strategies {set:?} together are off by {off:.1e} from strategy {i} alone"));
-            }
+/// Lights are chosen as often as their probabilities say, of which the last is that of none, and the number that is left is uniform and independent of
+/// the light.
+///
+/// # Panics
+/// If that is not so.
+pub fn frequencies(name: &str, probabilities: &[f64], chosen: &[etendue::select::Choice<f32>]) {
+    let none = probabilities.len() - 1;
+    let (mut counts, mut left, mut pairs) = (vec![0_u64; none + 1], vec![0_u64; 64], Vec::new());
+    for choice in chosen {
+        counts[(choice.index as usize).min(none)] += 1;
+        // of a light that few numbers choose, the number left has few values
+        if choice.pmf > 5e-4 {
+            left[(choice.u * 64.0) as usize] += 1;
+            pairs.push((f64::from(choice.index), f64::from(choice.u)));
         }
     }
-    findings
+    let expected: Vec<f64> = probabilities.iter().map(|p| p * chosen.len() as f64).collect();
+    let p = chi_square(&counts, &expected);
+    assert!(p > SIGNIFICANCE, "{name}: frequencies, p = {p}");
+    if let Some(first) = pairs.first() {
+        let p = stats::uniform(&left);
+        assert!(p > SIGNIFICANCE, "{name}: number left, p = {p}");
+        // without two lights that are often chosen there is nothing to correlate
+        if pairs.iter().any(|pair| pair.0 != first.0) {
+            let p = stats::two_sided(stats::correlation(&pairs) * (pairs.len() as f64).sqrt());
+            assert!(p > SIGNIFICANCE, "{name}: correlation, p = {p}");
+        }
+    }
 }

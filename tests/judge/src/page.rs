@@ -118,8 +118,9 @@ fn chart(all: &[Judgement]) -> String {
     let high = times.fold(0.0, f64::max).ceil().max(low + 1.0);
     let x = |ns: f64| 60.0 + 560.0 * (ns.log10() - low) / (high - low);
     let y = |error: f64| 20.0 + 40.0 * (0.0 - error.clamp(1e-7, 1.0).log10());
-    let mut out = String::from(
-        r#"<svg viewBox="0 0 860 350" style="width:860px;max-width:100%" font-family="sans-serif" font-size="11" fill="currentColor" role="img" aria-label="speed against accuracy">"#,
+    let height = (24.0 + 14.0 * shown.len() as f64).max(350.0);
+    let mut out = format!(
+        r#"<svg viewBox="0 0 940 {height}" style="width:940px;max-width:100%" font-family="sans-serif" font-size="11" fill="currentColor" role="img" aria-label="speed against accuracy">"#,
     );
     for power in -7..=0 {
         let at = y(10.0_f64.powi(power));
@@ -161,7 +162,7 @@ fn chart(all: &[Judgement]) -> String {
 
 const STYLE: &str = "body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#222;background:#fff}\
 table{border-collapse:collapse}td,th{padding:.2rem .7rem;border-bottom:1px solid #ccc;text-align:left}\
-.right{color:#1c6a2c}.wrong{color:#b3261e;font-weight:600}pre{background:#f3f3f3;padding:.6rem;overflow-x:auto;font-size:13px}\
+.right{color:#1c6a2c}.wrong{color:#b3261e;font-weight:600}.wide{overflow-x:auto}pre{background:#f3f3f3;padding:.6rem;white-space:pre-wrap;overflow-wrap:anywhere;font-size:13px}\
 @media(prefers-color-scheme:dark){body{color:#ddd;background:#181818}pre{background:#262626}.right{color:#7ecb8f}.wrong{color:#ff8a80}}";
 
 /// A page that needs nothing else.
@@ -172,7 +173,7 @@ pub fn html(all: &[Judgement]) -> String {
         "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\
          <title>Samplers of lights, judged</title><style>{STYLE}</style><h1>Samplers of lights, judged</h1><p>{} of {} samplers \
          are right wherever they claim to be. A sampler is wrong where a pdf or an estimate is off by more than 0.1 %, or a \
-         direction misses the light.</p><table><tr><th>sampler<th>verdict<th>right at<th>worst error<th>ns</tr>",
+         direction misses the light.</p><div class=wide tabindex=0 role=region aria-label=verdicts><table><tr><th>sampler<th>verdict<th>right at<th>worst error<th>ns</tr>",
         all.len() - wrong,
         all.len()
     );
@@ -187,7 +188,7 @@ pub fn html(all: &[Judgement]) -> String {
             j.nanoseconds
         );
     }
-    let _ = write!(out, "</table><h2>Speed against accuracy</h2>{}", chart(all));
+    let _ = write!(out, "</table></div><h2>Speed against accuracy</h2>{}", chart(all));
     out.push_str("<p>Lower is more accurate, further left is faster; the dashed line is the limit of 0.1 %.</p>");
     for (i, j) in all.iter().enumerate() {
         let _ = write!(out, "<h2 id=\"s{i}\">{}</h2><p>", escape(&j.name));

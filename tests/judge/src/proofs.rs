@@ -1,7 +1,7 @@
 //! Judges proofs of visibility against an oracle: what they say of a light behind occluders, for all points of a patch of a floor, and the
 //! irradiance of these points with its error.
 
-use crate::lights::figures::{Figure, Measured};
+use crate::lights::measured::{Figure, Measured};
 use crate::lights::scene::Axis;
 use crate::lights::verdict::{Case, Finding, Judgement};
 use crate::random::Random;

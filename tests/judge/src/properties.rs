@@ -156,13 +156,16 @@ fn density_at<R: Real>(s: &Subject, sampler: &dyn LightSampler<R>, u: [f32; 2], 
     greatest.error()
 }
 
-/// The pdf is 0 outside the shape: 16 units in the last place beyond its boundary, and further away. Returns whether anything is outside.
+/// The pdf is 0 outside the shape, and rays miss it: 16 units in the last place beyond its boundary, and further away. Returns whether anything is
+/// outside.
 pub fn outside(s: &Subject, random: &mut Random) -> bool {
     let mut is_checked = false;
     for margin in [16.0 * ROUNDING, 1e-3, 0.1] {
         if let Some(w) = s.truth.outside(margin, random) {
-            let pdf = s.single.pdf(Coordinates::gather(&[w]));
+            let w = Coordinates::gather(&[w]);
+            let (pdf, hit) = (s.single.pdf(w), s.single.hit(w));
             assert!(pdf == 0.0, "pdf {pdf} outside {s:?} by {margin:e}, at {w:?}");
+            assert!(!hit.valid() && hit.weight() == 0.0, "a ray hits {s:?} outside by {margin:e}: {hit:?}");
             is_checked = true;
         }
     }

@@ -98,9 +98,3 @@ pub const PATCH: Tolerance = Tolerance { point: 4.0, steps: 6.0, distance: 0.0, 
 /// Steps for a flat shape that covers more than a quarter of the sphere: near the far edge and vertex the map turns by 1/(height over the
 /// plane) per unit of area, and Ω is accurate to 4 units.
 pub const NEAR_HEMISPHERE_STEPS: f64 = 8.0;
-
-/// Relative error of a mean over a 1024² grid, for a technique by solid angle; 1 is the projected solid angle of the shape when it faces
-/// the receiver. Kinks at the horizon leave about n^(−3/2)/12 = 2.5e−6, the error of the pdf 5e−7.
-pub const GRID: f64 = 3e-6;
-/// The same for a technique by area: the integrand has two more factors, cosθ' and 1/d², and half of a sphere is cut off.
-pub const GRID_AREA: f64 = 6e-6;

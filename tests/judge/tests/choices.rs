@@ -1,8 +1,7 @@
-//! Choosers and weights, judged: the core's are right, a light that is lost among ten thousand is found.
+//! Choosers, judged: the core's is right, a light that is lost among ten thousand is found.
 
 use etendue::discrete::PiecewiseConstant1d;
-use etendue::estimate::Heuristic;
-use etendue_judge::choices::{Chooser, choices, weights};
+use etendue_judge::choices::{Chooser, choices};
 use etendue_judge::generators::Random;
 use std::time::Instant;
 
@@ -65,25 +64,4 @@ fn the_variance_of_a_choice_is_that_of_its_probabilities() {
     assert!(said.findings.is_empty() && (said.variance - 1.0).abs() < 1e-12, "{said:?}");
     let none = choices(&Uniform, &[1.0; 3], 1000, 1);
     assert!(none.findings[0].contains("light 3 of 3"), "{none:?}");
-}
-
-#[test]
-fn weights_of_several_strategies_are_judged_against_each_alone() {
-    let of = |heuristic: Heuristic| {
-        weights(move |d| match *d {
-            [a, b] => heuristic.weights([a, b]).to_vec(),
-            [a, b, c] => heuristic.weights([a, b, c]).to_vec(),
-            _ => heuristic.weights([d[0], d[1], d[2], d[3]]).to_vec(),
-        })
-    };
-    for heuristic in [Heuristic::Balance, Heuristic::POWER, Heuristic::Maximum] {
-        assert_eq!(of(heuristic), [""; 0], "{heuristic:?}");
-    }
-    // the square is forgotten in one place
-    let wrong = weights(|d| {
-        let sum: f32 = d.iter().map(|d| d * d).sum();
-        d.iter().map(|d| (d * d.max(0.99) / sum).min(1.0)).collect()
-    });
-    assert!(!wrong.is_empty());
-    println!("{wrong:?}");
 }

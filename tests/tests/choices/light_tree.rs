@@ -1,10 +1,9 @@
 //! Trees of lights: exact sums, the pmf of choices, frequencies, and that no light is lost.
 
-use etendue::select::{Join, LightTree};
+use etendue::select::Join;
+use etendue_judge::choices::frequencies;
 use etendue_judge::generators::{EDGES, Random};
 use etendue_judge::light_tree::{Grove, Lamp, PointAndNormal, Reached, Regime, place};
-use etendue_judge::stats;
-use etendue_judge::tolerances::SIGNIFICANCE;
 use etendue_oracle::tier::cases;
 
 const COUNTS: [usize; 9] = [1, 2, 7, 8, 9, 63, 64, 65, 1000];
@@ -69,26 +68,6 @@ fn no_light_is_lost_in_any_regime() {
 }
 
 #[test]
-#[ignore = "a million points of surfaces"]
-fn a_million_points() {
-    let mut random = Random::new(7);
-    let (mut pairs, mut points) = (0, 0);
-    for round in 0..1_000_000_u64 / 40 {
-        let regime = Regime::ALL[round as usize % Regime::ALL.len()];
-        let count = 1 + (random.word() % [8, 64, 300][round as usize % 3]) as usize;
-        let lamps = regime.lamps(count, &mut random);
-        let grove = Grove::of(&lamps);
-        for _ in 0..40 {
-            let place = place(regime, &lamps, &mut random);
-            let _ = grove.exact(place.0);
-            pairs += law(&grove, &lamps, place, &mut random);
-            points += 1;
-        }
-    }
-    println!("{points} points, {pairs} pairs of a point and a light that contributes");
-}
-
-#[test]
 #[ignore = "some seconds"]
 fn a_hundred_thousand_lights() {
     for (seed, regime) in (0..).zip(Regime::ALL) {
@@ -134,33 +113,14 @@ fn frequencies_are_the_pmf() {
             let (place, _) = place(regime, &lamps, &mut random);
             let (reached, none) = grove.exact(place);
             let draws = cases(1 << 14, 1 << 18);
-            let mut expected = vec![0.0; lamps.len() + 1];
-            expected[lamps.len()] = none * f64::from(draws);
+            let mut probabilities = vec![0.0; lamps.len() + 1];
+            probabilities[lamps.len()] = none;
             for reached in &reached {
-                expected[reached.light as usize] = reached.pmf * f64::from(draws);
+                probabilities[reached.light as usize] = reached.pmf;
             }
-            let (mut counts, mut left) = (vec![0; lamps.len() + 1], vec![0; 64]);
-            let mut pairs = Vec::new();
             let at = grove.at(place);
-            for _ in 0..draws {
-                let choice = at.choose_by(words_of(&mut random));
-                counts[(choice.index as usize).min(lamps.len())] += 1;
-                if choice.index != LightTree::NO_LIGHT {
-                    left[(choice.u * 64.0) as usize] += 1;
-                    pairs.push((f64::from(choice.index), f64::from(choice.u)));
-                }
-            }
-            let p = stats::chi_square(&counts, &expected);
-            assert!(p > SIGNIFICANCE, "{regime:?}: frequencies, p = {p}");
-            if reached.is_empty() {
-                continue;
-            }
-            let p = stats::uniform(&left);
-            assert!(p > SIGNIFICANCE, "{regime:?}: number left, p = {p}");
-            if reached.len() > 1 {
-                let p = stats::two_sided(stats::correlation(&pairs) * (pairs.len() as f64).sqrt());
-                assert!(p > SIGNIFICANCE, "{regime:?}: correlation, p = {p}");
-            }
+            let chosen: Vec<_> = (0..draws).map(|_| at.choose_by(words_of(&mut random))).collect();
+            frequencies(&format!("{regime:?}"), &probabilities, &chosen);
         }
     }
 }

@@ -4,8 +4,7 @@ use etendue::discrete::PiecewiseConstant1d;
 use etendue::select::{Choice, LightBound, LightChoice, LightsError, SpatialLights, UniformLights};
 use etendue::sequence::{Independent, Sequence};
 use etendue::{Mask, Real, Uint, Vec2, f32x4, f32x8, u32x8};
-use etendue_judge::stats;
-use etendue_judge::tolerances::SIGNIFICANCE;
+use etendue_judge::choices::frequencies;
 use etendue_oracle::{dot, length, sub};
 
 /// Frequencies are the pmf, the pmf sums to 1, the number left is uniform, and widths agree.
@@ -17,13 +16,11 @@ fn check(
     pmf: impl Fn(u32) -> f32,
 ) {
     let draws = 1 << 19;
-    let probabilities: Vec<f64> = (0..count as u32).map(|k| f64::from(pmf(k))).collect();
+    let probabilities: Vec<f64> = (0..=count as u32).map(|k| f64::from(pmf(k))).collect();
     let sum: f64 = probabilities.iter().sum();
     assert!((sum - 1.0).abs() < 1e-6, "{name}: Σpmf = {sum}");
     assert_eq!([pmf(count as u32), pmf(u32::MAX)], [0.0; 2], "{name}");
-    let mut counts = vec![0_u64; count];
-    let mut left = vec![0_u64; 64];
-    let mut pairs = Vec::new();
+    let mut chosen = Vec::new();
     for i in (0..draws).step_by(8) {
         let u: Vec2<f32x8> = Independent::new(3).pair(u32x8::splat(0), u32x8::from_fn(|k| i + k as u32), 0);
         let eight = packet(u.x);
@@ -32,23 +29,10 @@ fn check(
             assert_eq!((eight.index.lane(k), eight.pmf.lane(k), eight.u.lane(k)), (one.index, one.pmf, one.u));
             assert_eq!(one.pmf, pmf(one.index), "{name}: light {}", one.index);
             assert!((0.0..1.0).contains(&one.u));
-            counts[one.index as usize] += 1;
-            // of a light that few numbers choose, the number left has few values
-            if one.pmf > 5e-4 {
-                left[(one.u * 64.0) as usize] += 1;
-                pairs.push((f64::from(one.index), f64::from(one.u)));
-            }
+            chosen.push(one);
         }
     }
-    let expected: Vec<f64> = probabilities.iter().map(|p| p * f64::from(draws)).collect();
-    let p = stats::chi_square(&counts, &expected);
-    assert!(p > SIGNIFICANCE, "{name}: frequencies, p = {p}");
-    assert!(stats::uniform(&left) > SIGNIFICANCE, "{name}: number left, p = {}", stats::uniform(&left));
-    // without two lights that are often chosen there is nothing to correlate
-    if pairs.iter().any(|pair| pair.0 != pairs[0].0) {
-        let z = stats::correlation(&pairs) * (pairs.len() as f64).sqrt();
-        assert!(stats::two_sided(z) > SIGNIFICANCE, "{name}: {z}");
-    }
+    frequencies(name, &probabilities, &chosen);
 }
 
 #[test]

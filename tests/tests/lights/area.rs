@@ -27,22 +27,6 @@ fn origin() -> Vec3<f64> {
     Vec3::new(0.0, 0.0, 0.0)
 }
 
-/// Facing, on the axis: by area the second moment is (π²k²/3)(1 − (1+k²)⁻³), by solid angle 4π²(1−c)(1−c³)/3, with k = R/h, c = 1/√(1+k²).
-#[test]
-fn disk_has_its_variance() {
-    for k in [0.25_f64, 1.0, 4.0, 8.0] {
-        let disk = Disk { center: [0.0, 0.0, 1.0].into(), normal: [0.0, 0.0, -1.0].into(), radius: k };
-        let c = 1.0 / (1.0 + k * k).sqrt();
-        let square = |s: LightSample<f64>| irradiance(&s, [0.0, 0.0, 1.0]).powi(2);
-        let by_area = mean(400, |u| square(disk.by_area(origin()).sample(u)));
-        let truth = (PI * k).powi(2) / 3.0 * (1.0 - (1.0 + k * k).powi(-3));
-        assert!((by_area / truth - 1.0).abs() < 1e-3, "{k}: {by_area} for {truth}");
-        let by_solid_angle = mean(400, |u| square(disk.by_solid_angle(origin()).sample(u)));
-        let truth = 4.0 * PI * PI * (1.0 - c) * (1.0 - c * c * c) / 3.0;
-        assert!((by_solid_angle / truth - 1.0).abs() < 1e-5, "{k}: {by_solid_angle} for {truth}");
-    }
-}
-
 /// The area of each light that is sampled by it, against closed forms, and the mean of what its samples are worth.
 #[test]
 fn areas_are_those_of_the_shapes() {

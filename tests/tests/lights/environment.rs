@@ -221,30 +221,6 @@ fn samples_follow_the_pdf() {
     }
 }
 
-/// If the weights are the radiance, radiance over pdf is its integral for every sample, without variance.
-#[test]
-fn every_sample_has_the_same_value() {
-    for map in MAPS {
-        for image in images(map).iter().filter(|i| i.name != "six decades" && i.weights.len() < 5000) {
-            let mut buffer = vec![0.0; ImageEnvironment::buffer(image.width, image.height)];
-            let sky = ImageEnvironment::build(&image.weights, image.width, map, &mut buffer).unwrap();
-            let total: f64 = (0..image.weights.len())
-                .map(|i| f64::from(image.weights[i]) * image.solid_angle(map, i / image.width))
-                .sum();
-            let mut random = Random::new(4);
-            for _ in 0..200 {
-                let s = sky.draw(Vec2::new(random.unit(), random.unit()));
-                let worth =
-                    f64::from(image.weights[s.y as usize * image.width + s.x as usize]) / f64::from(s.light.pdf);
-                // a texel's pmf is a product of multiples of 2⁻²⁴
-                let share = f64::from(s.light.pdf) * image.solid_angle(map, s.y as usize);
-                let grid = image.weights.len() as f64 * 2.0 * ULP / share.min(1.0);
-                assert!((worth / total - 1.0).abs() < 2e-6 + grid, "{map:?} {}: {worth}, expected {total}", image.name);
-            }
-        }
-    }
-}
-
 /// Single against double precision in the same code, at the same texel: within the documented bounds.
 #[test]
 fn accuracy() {

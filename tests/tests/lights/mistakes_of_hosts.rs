@@ -42,13 +42,32 @@ fn a_normal_that_points_away_leaves_nothing() {
 fn a_light_seen_from_behind_has_a_pdf_but_no_weight() {
     let above = v(0.2, 2.0, 0.1);
     let turned = Triangle::new(v(0.0, 1.0, 0.0), v(0.0, 1.0, 1.0), v(1.0, 1.0, 0.0));
-    for (light, p) in [(lamp(), above), (turned, v(0.2, 0.0, 0.1))] {
-        for s in [light.by_area(p).sample(U), light.by_solid_angle(p).sample(U)] {
-            assert!(s.pdf > 0.0 && !s.emits && s.weight() == 0.0 && !s.valid());
-            assert_eq!(s.two_sided().weight(), 1.0 / s.pdf);
-        }
-        let hit = light.by_solid_angle(p).hit(light.by_solid_angle(p).sample(U).direction);
-        assert!(hit.pdf > 0.0 && !hit.emits);
+    let (corner, edges) = (v(0.0, 1.0, 0.0), [v(1.0, 0.0, 0.0), v(0.0, 0.0, 1.0)]);
+    let panel = Parallelogram::new(corner, edges[0], edges[1]);
+    let square = Rectangle::new(corner, edges[0], edges[1]);
+    let polygon = Polygon::new([corner, corner + edges[0], corner + edges[0] + edges[1], corner + edges[1]]);
+    let disk = Disk::new(corner, v(0.0, -1.0, 0.0), 0.5);
+    let n = v(0.0, -1.0, 0.0);
+    let behind: [Box<dyn LightSampler<f32>>; 12] = [
+        Box::new(lamp().by_area(above)),
+        Box::new(lamp().by_solid_angle(above)),
+        Box::new(turned.by_area(v(0.2, 0.0, 0.1))),
+        Box::new(turned.by_solid_angle(v(0.2, 0.0, 0.1))),
+        Box::new(panel.by_area(above)),
+        Box::new(square.by_solid_angle(above)),
+        Box::new(panel.by_projected_solid_angle(above, n)),
+        Box::new(polygon.by_area(above)),
+        Box::new(polygon.by_solid_angle(above)),
+        Box::new(polygon.by_projected_solid_angle(above, n)),
+        Box::new(disk.by_area(above)),
+        Box::new(disk.by_solid_angle(above)),
+    ];
+    for light in behind {
+        let s = light.sample(U);
+        assert!(s.pdf > 0.0 && !s.emits && s.weight() == 0.0 && !s.valid(), "{s:?}");
+        assert_eq!(s.two_sided().weight(), 1.0 / s.pdf);
+        let hit = light.hit(s.direction);
+        assert!(hit.pdf > 0.0 && !hit.emits, "{hit:?}");
     }
 }
 

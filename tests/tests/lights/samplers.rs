@@ -21,42 +21,6 @@ fn clear(light: &AreaLight) -> bool {
     !(flat && (low || slim && !light.shape.has_normal()))
 }
 
-/// The inverse returns the number, to what the direction's rounding allows; of solid angles at the scale of rooms.
-#[test]
-fn inverse_of_a_sample_is_its_number() {
-    for kind in 0..AreaLight::KINDS.len() {
-        let (mut random, shape) = (Random::new(200 + kind as u64), AreaLight::KINDS[kind].0);
-        let mut worst = 0.0_f64;
-        for round in 0..1000 {
-            let light = AreaLight::any(kind, round * 20, &mut random);
-            let (v, normal) = (wide(light.a), cross(wide(light.b), wide(light.c)));
-            if !clear(&light) || dot(v, normal).abs() < 0.2 * length(v) * length(normal) || length(normal) < 0.3 {
-                continue;
-            }
-            let u = Vec2::new(0.02 + 0.96 * random.unit_f64(), 0.02 + 0.96 * random.unit_f64());
-            let sampler = AreaLight::prepare::<f64>(&[light]);
-            let s = sampler.sample(u);
-            // the nearest point is another one where the light hides the sample, as a folded patch may
-            let hidden = shape == LightShape::Patch && sampler.hit(s.direction).distance < 0.999 * s.distance;
-            let cos = dot(s.direction.at(0), s.normal.at(0)).abs();
-            if s.pdf > 0.0 && s.emits && cos > 0.05 && !hidden {
-                let again = sampler.invert(s.direction);
-                let across = if light.shape == LightShape::Line { 0.0 } else { (again.y - u.y).abs() };
-                worst = worst.max((again.x - u.x).abs().max(across.min(1.0 - across)));
-            }
-        }
-        println!("{:?}: inverse off by {worst:.1e}", AreaLight::KINDS[kind]);
-        let limit = match AreaLight::KINDS[kind] {
-            // one of the two maps of a cut cap has a square root at its ends
-            (LightShape::Sphere, Measure::ProjectedSolidAngle) => 1e-5,
-            // the edges are perpendicular, and the normal has length 1, to the rounding of single precision
-            (shape, _) if shape == LightShape::Rectangle || shape.has_normal() => 1e-5,
-            _ => 1e-7,
-        };
-        assert!(worst < limit, "{:?}: {worst:e}", AreaLight::KINDS[kind]);
-    }
-}
-
 /// A ray hits the point of the sample: distance, normal and surface coordinates agree.
 #[test]
 fn a_hit_is_the_point_that_was_sampled() {
@@ -94,28 +58,6 @@ fn a_hit_is_the_point_that_was_sampled() {
             assert!(near(du) && near(dv), "{shape:?} {by:?}: {hit:?} for {s:?}");
         }
         assert!(seen > 50 && hidden < seen / 10, "{shape:?} {by:?}: {seen}, and {hidden} hidden");
-    }
-}
-
-/// A direction that misses the light has pdf 0, and is a miss.
-#[test]
-fn directions_beside_the_light_miss() {
-    for kind in 0..AreaLight::KINDS.len() {
-        let (shape, by) = AreaLight::KINDS[kind];
-        let mut random = Random::new(400 + kind as u64);
-        for round in 0..300 {
-            let light = AreaLight::any(kind, round * 20 + 1, &mut random);
-            let sampler = AreaLight::prepare::<f32>(&[light]);
-            let w = sampler.sample(Vec2::new(0.5, 0.5)).direction;
-            for miss in [-w, Vec3::new(w.y, w.z, w.x)] {
-                let off = 1.0 - f64::from(miss.dot(w));
-                if off > 0.1 && length(w.at(0)) > 0.9 && shape != LightShape::Line {
-                    assert_eq!(sampler.pdf(miss), 0.0, "{shape:?} {by:?}: {light:?}");
-                    let hit = sampler.hit(miss);
-                    assert!(!hit.valid() && hit.weight() == 0.0, "{shape:?} {by:?}: {hit:?}");
-                }
-            }
-        }
     }
 }
 

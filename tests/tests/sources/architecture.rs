@@ -171,7 +171,7 @@ fn cycle(imports: &Graph) -> Option<Vec<String>> {
 
 /// The packages, and whether the files inside of their folders must import one way, too. In the core and the properties, the file of a
 /// folder has the traits and types that all its modules share, so they import it.
-const PACKAGES: [(&str, bool); 15] = [
+const PACKAGES: [(&str, bool); 14] = [
     ("core", false),
     ("core/batch", true),
     ("core/c", true),
@@ -183,7 +183,6 @@ const PACKAGES: [(&str, bool); 15] = [
     ("render/laboratory", true),
     ("render/cli", true),
     ("tests/bits", true),
-    ("tests/fit", true),
     ("tests/oracle", true),
     ("tests/judge", false),
     ("benches/routines", true),
@@ -230,7 +229,6 @@ fn imports_are_found() {
         ("render/laboratory", "render/laboratory", "chart", "options"),
         ("render/laboratory", "render/laboratory::chart", "report", "outcome"),
         ("render/laboratory", "render/laboratory::chart", "plot", "stats"),
-        ("tests/atlas", "tests/atlas", "survey", "truth"),
         ("render/cli", "render/cli", "render", "output"),
         ("tests/oracle", "tests/oracle", "curves", "quadrature"),
         ("tests/judge", "tests/judge", "suite", "properties"),
@@ -254,7 +252,7 @@ fn imports_are_found() {
 }
 
 /// Which packages of the workspace each one may use, and which more its tests, benchmarks and examples may.
-const ARROWS: [(&str, &[&str], &[&str]); 25] = [
+const ARROWS: [(&str, &[&str], &[&str]); 23] = [
     ("core", &[], &[]),
     ("core/batch", &["etendue"], &[]),
     ("core/c", &["etendue", "etendue-batch"], &[]),
@@ -273,9 +271,7 @@ const ARROWS: [(&str, &[&str], &[&str]); 25] = [
         &[],
         &["etendue", "etendue-oracle", "etendue-judge", "etendue-render", "etendue-scene", "etendue-visible"],
     ),
-    ("tests/atlas", &["etendue", "etendue-judge", "etendue-laboratory", "etendue-oracle", "etendue-render"], &[]),
     ("tests/bits", &["etendue", "etendue-judge"], &[]),
-    ("tests/fit", &[], &[]),
     ("tests/oracle", &[], &[]),
     ("tests/proof", &["etendue", "etendue-oracle"], &[]),
     ("tests/judge", &["etendue", "etendue-oracle", "etendue-visible"], &[]),

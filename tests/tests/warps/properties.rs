@@ -3,12 +3,11 @@
 use etendue::Sphere;
 use etendue_judge::area_lights::{AreaLight, LightShape, Measure};
 use etendue_judge::fixture::Fixture;
-use etendue_judge::fixtures::{Bilinear, Cone, GgxVisibleNormals, PatchSurface, Segment};
-use etendue_judge::generators::{self, Case, Random, lights};
+use etendue_judge::generators::{self, Case, lights};
 use etendue_judge::packets::squares_of;
 use etendue_judge::properties;
 use etendue_judge::suite;
-use etendue_oracle::tier::{cases, is_long};
+use etendue_oracle::tier::is_long;
 use std::collections::BTreeSet;
 
 /// Properties that say nothing of a warp: it has no lengths, or its points scale with them, or nothing is outside of its shape.
@@ -67,8 +66,8 @@ fn all<S: Fixture>(warp: &str, cases: Vec<Case<S>>, random: usize) {
     assert!(broken.is_empty(), "broken properties:\n{}", broken.join("\n"));
 }
 
-use LightShape::{Disk, Parallelogram, Rectangle, Triangle};
-use Measure::{ProjectedSolidAngle, SolidAngle};
+use LightShape::{Parallelogram, Rectangle, Triangle};
+use Measure::SolidAngle;
 
 /// A test for each warp.
 macro_rules! tests {
@@ -83,54 +82,6 @@ etendue_judge::warps!(tests! {});
 tests! {
     spherical_polygon_of_every_size Seen 60 = generators::hexagons_of_every_size(3, 16);
     projected_polygon_of_every_size Seen 40 = generators::projected_pentagons_of_every_size(2, 19);
-}
-
-/// Every shape by its techniques other than area.
-const SHAPES: [(LightShape, Measure); 8] = [
-    (LightShape::Sphere, SolidAngle),
-    (LightShape::Sphere, ProjectedSolidAngle),
-    (Triangle, SolidAngle),
-    (Triangle, ProjectedSolidAngle),
-    (Parallelogram, SolidAngle),
-    (Parallelogram, ProjectedSolidAngle),
-    (Rectangle, SolidAngle),
-    (Disk, SolidAngle),
-];
-
-/// Lane-identical with any other parameters and any other `u` in each lane, subnormal ones included: a lane that takes a rare path does not
-/// take its neighbours there.
-#[test]
-fn lanes_keep_to_themselves() {
-    let mut random = Random::new(98);
-    for i in 0..cases(500, 20_000) {
-        let mut vectors = || -> [[[f32; 3]; 8]; 3] {
-            let of = |random: &mut Random| {
-                if i % 2 == 0 { generators::nasty(random) } else { random.direction().map(|x| x as f32) }
-            };
-            core::array::from_fn(|_| core::array::from_fn(|_| of(&mut random)))
-        };
-        let [a, b, c] = vectors();
-        let us = core::array::from_fn(|_| {
-            core::array::from_fn(|_| match random.word() % 4 {
-                0 => f32::from_bits((random.word() as u32) >> 8),
-                1 => random.unit() * 1e-30,
-                _ => random.unit(),
-            })
-        });
-        properties::lanes(&core::array::from_fn(|k| Bilinear { corners: [a[k][0], a[k][1], b[k][0], c[k][2]] }), &us);
-        properties::lanes(&core::array::from_fn(|k| Cone { one_minus_cos: b[k][0].clamp(0.0, 2.0) }), &us);
-        properties::lanes(&core::array::from_fn(|k| GgxVisibleNormals { alpha: [a[k][0], b[k][0]], wi: c[k] }), &us);
-        for (shape, by) in SHAPES {
-            let light = |k: usize| {
-                let b = if shape == LightShape::Disk { c[k] } else { b[k] };
-                AreaLight { radius: b[0], ..AreaLight::seen(shape, by, [a[k], b, c[k]], a[7 - k]) }
-            };
-            properties::lanes(&core::array::from_fn(light), &us);
-        }
-        properties::lanes(&core::array::from_fn(|k| Segment { ends: [a[k], b[k]], normal: None }), &us);
-        properties::lanes(&core::array::from_fn(|k| Segment { ends: [a[k], b[k]], normal: Some(c[k]) }), &us);
-        properties::lanes(&core::array::from_fn(|k| PatchSurface { p: c[k], u: a[k], v: b[k], w: a[7 - k] }), &us);
-    }
 }
 
 /// Points on a vertex, on an edge and in the plane; on and in spheres. If nothing is visible, the pdf is 0.

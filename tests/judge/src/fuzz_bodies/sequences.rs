@@ -25,6 +25,10 @@ pub(super) fn sequence(input: &mut Input<'_>) {
             assert_eq!(packet.lane(k), one, "{sequence:?} lane {k}: pixel {pixel}, sample {sample}, {dimension}");
             let inside = (0.0..1.0).contains(&one.x) && (0.0..1.0).contains(&one.y);
             assert!(inside, "{sequence:?}: {one:?}: pixel {pixel}, sample {sample}, {dimension}");
+            // f64 does not round the point
+            let wide: Vec2<f64> = sequence.pair(pixels.lane(k), samples.lane(k), dimension);
+            let off = (wide.x - f64::from(one.x)).abs().max((wide.y - f64::from(one.y)).abs());
+            assert!(off < 2.4e-7, "{sequence:?}: {one:?}, {wide:?}: pixel {pixel}, sample {sample}, {dimension}");
         }
     }
     let (seed, kind) = (input.seed(), input.below(5));

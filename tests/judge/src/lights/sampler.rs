@@ -168,7 +168,8 @@ pub fn technique(shape: LightShape, by: Measure) -> Subject<'static> {
 /// The core's own techniques of these shapes, from its one list, and its sets of one light.
 #[must_use]
 pub fn own() -> Vec<Subject<'static>> {
-    let kinds = AreaLight::KINDS.iter().filter(|kind| SHAPES.iter().any(|s| s.0 == kind.0));
+    let is_judged = |shape| shape == LightShape::Polygon || SHAPES.iter().any(|s| s.0 == shape);
+    let kinds = AreaLight::KINDS.iter().filter(|kind| is_judged(kind.0));
     kinds.map(|&(shape, by)| technique(shape, by)).chain(SHAPES.iter().map(|s| set(s.0))).collect()
 }
 

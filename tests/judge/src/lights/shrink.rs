@@ -1,6 +1,6 @@
 //! Makes the input that shows a finding smaller: at the origin, along the axes, with few digits.
 
-use super::figures::Measured;
+use super::measured::Measured;
 use super::scene::is_sound;
 use crate::area_lights::AreaLight;
 

@@ -1,7 +1,8 @@
 //! Tries a sampler at all places, and says where it is wrong.
 
 use super::definition::Definition;
-use super::figures::{Figure, Measured, Trial};
+use super::figures::Trial;
+use super::measured::{Figure, Measured};
 use super::observe::{Questions, ask};
 use super::sampler::{Prepared, Subject, measure_name, shape_name};
 use super::scene::{Axis, JudgedPlace, place, places};

@@ -4,7 +4,7 @@
 use super::random::{LATTICE, Random};
 use super::scene::{Form, Prepared};
 use crate::closed_forms::projected_cap;
-use crate::outline::{clipped, lambert_vector};
+use crate::outline::{area_vector, clipped, lambert, solid_angle};
 use crate::vectors::{V3, along, basis, cross, dot, length, sub, unit};
 use crate::visible::{Shape, visible};
 use core::f64::consts::{PI, TAU};
@@ -401,38 +401,6 @@ pub(super) fn transmittance(
         }
     }
     left
-}
-
-/// Solid angle of a polygon, with the sign of its turn.
-fn solid_angle(corners: &[V3]) -> f64 {
-    let Some((&a, rest)) = corners.split_first() else { return 0.0 };
-    let triangle = |b: V3, c: V3| {
-        let [x, y, z] = [a, b, c].map(length);
-        2.0 * dot(a, cross(b, c)).atan2(x * y * z + dot(a, b) * z + dot(b, c) * x + dot(c, a) * y)
-    };
-    rest.windows(2).map(|pair| triangle(pair[0], pair[1])).sum()
-}
-
-/// Twice the area of a convex polygon, along its normal.
-fn area_vector(corners: &[V3]) -> V3 {
-    let of = |i: usize| cross(sub(corners[i], corners[0]), sub(corners[i + 1], corners[0]));
-    (1..corners.len() - 1).fold([0.0; 3], |sum, i| along(sum, of(i), 1.0))
-}
-
-/// Ω⊥ of a convex polygon above the horizon of `n`.
-fn lambert(corners: &[V3], n: V3) -> f64 {
-    let area = area_vector(corners);
-    let squared = dot(corners[0], corners[0]);
-    if dot(area, area).sqrt() < 1e-12 * squared {
-        // so small that all of it is in one direction; the sum over edges would cancel
-        let middle = corners.iter().fold([0.0; 3], |sum, v| along(sum, *v, 1.0 / corners.len() as f64));
-        let squared = dot(middle, middle);
-        let extent = corners.iter().map(|v| length(sub(*v, middle))).fold(0.0, f64::max);
-        if extent * extent < 1e-9 * squared {
-            return 0.5 * dot(area, middle).abs() * dot(n, middle).max(0.0) / (squared * squared);
-        }
-    }
-    dot(lambert_vector(corners), n).abs().min(PI)
 }
 
 /// Splits a triangle into parts that are small relative to their distance.

@@ -1,0 +1,112 @@
+//! Points of samples, and what lights under maps are.
+
+use super::{V, ellipsoid, estimate, every, numbers, up, v};
+use etendue::light::Affine;
+use etendue::lights::{Emitter, Lights, Receiver, Side};
+use etendue::{Disk, Sphere};
+use etendue_oracle::tier::cases;
+
+/// The point of a sample is as near to the light as it says, by the shape in double precision; and the reach of a shadow ray is near.
+#[test]
+fn points_are_within_their_bounds() {
+    let mut greatest = [0.0_f64; 17];
+    for shift in [0.0, 1.0, 300.0] {
+        let moved = |a: [f64; 3]| [a[0] + shift, a[1] + shift * 0.5, a[2] - shift];
+        let (wide, narrow) = (every::<f64>(), every::<f32>());
+        for k in [0_usize, 1, 2, 3, 4, 8, 9, 10] {
+            let set = Lights::new([narrow[k].clone()]).unwrap();
+            let p = v::<f32>(moved([0.0; 3]));
+            let at = set.at(Receiver { point: p, side: Side::None, on: None });
+            let exact = set_of_planes(&wide[k].0);
+            for i in 0..cases(2_000, 50_000) {
+                let s = at.sample(numbers(4, i));
+                if s.pdf == 0.0 {
+                    continue;
+                }
+                let off = exact(s.point.map(f64::from), s.which.part as usize);
+                greatest[k] = greatest[k].max(off / f64::from(s.bound));
+                assert!(off <= f64::from(s.bound), "{k}: {off} {s:?}");
+                assert!(s.bound < 1e-4 && s.reach() <= s.distance, "{s:?}");
+            }
+        }
+    }
+    assert!(greatest.iter().any(|x| *x > 0.02), "the bounds are far too wide: {greatest:?}");
+}
+
+/// The distance of a point from a light, or from its plane.
+fn set_of_planes(light: &Emitter<f64>) -> Box<dyn Fn(V<f64>, usize) -> f64> {
+    let text = format!("{light:?}");
+    let shape = text.split("shape: ").nth(1).and_then(|text| text.split('(').next()).unwrap_or_default();
+    let kind = if is_mesh(&text) { "Mesh" } else { shape }.to_owned();
+    match kind.as_str() {
+        "Sphere" => Box::new(|q, _| ((q - v([0.0, 3.0, 0.0])).length() - f64::from(0.8_f32)).abs()),
+        "Ellipsoid" => {
+            let lamp = ellipsoid::<f32>();
+            let wide = |a: V<f32>| a.map(f64::from);
+            let ([x, y, z], origin) = (lamp.axes.map(wide), wide(lamp.origin));
+            let (center, radius, volume) = (wide(lamp.shape.center), f64::from(lamp.shape.radius), x.dot(y.cross(z)));
+            Box::new(move |q, _| {
+                let d = q - origin;
+                let local = V::new(d.dot(y.cross(z)), d.dot(z.cross(x)), d.dot(x.cross(y))) * (1.0 / volume) - center;
+                // the least stretch is more than 0.3
+                (local.length() - radius).abs() * 0.3
+            })
+        }
+        _ => {
+            let planes = planes(&kind);
+            Box::new(move |q, part| {
+                let (on, n) = planes[part.min(planes.len() - 1)];
+                (q - on).dot(n.unit_and_length().0).abs()
+            })
+        }
+    }
+}
+
+fn is_mesh(text: &str) -> bool {
+    text.matches("Triangle(").count() > 1
+}
+
+/// A point and the normal of each flat part, of the numbers of single precision.
+fn planes(kind: &str) -> Vec<(V<f64>, V<f64>)> {
+    let f = |a: [f64; 3]| v::<f32>(a).map(f64::from);
+    match kind {
+        "Mesh" => vec![(f([0.0, 3.0, -2.0]), f([0.0, 1.0, -1.0]))],
+        "Triangle" => vec![(f([1.0, 1.0, 1.0]), f([1.0, 0.5, 0.0]).cross(f([0.0, 0.0, 1.0])))],
+        "Parallelogram" => vec![(f([-3.0, 1.0, -1.0]), f([1.0, 0.5, 0.0]).cross(f([0.2, 0.0, 1.0])))],
+        "Rectangle" => vec![(f([-1.0, 4.0, -1.0]), f([0.0, 1.0, 0.0]))],
+        "Disk" => vec![(f([2.0, 2.0, -2.0]), f([0.0, 1.0, 0.0]))],
+        _ => {
+            let [x, y] = [[1.0, 0.0, 0.2], [0.0, 0.3, 0.5]].map(f);
+            vec![(f([-2.5, 2.0, -2.0]), x.cross(y))]
+        }
+    }
+}
+
+/// A sphere or a disk under a map that keeps angles is one; if it is stretched by a thousandth, it is not.
+#[test]
+fn round_images_are_spheres_and_disks() {
+    let axes = |stretch: f64| [[0.0, 1.2, 1.6], [2.0 * stretch, 0.0, 0.0], [0.0, 1.6, -1.2]].map(v::<f32>);
+    let light =
+        |stretch| Emitter::from(Affine::new(Sphere::new(v([0.5, 0.0, 0.0]), 0.25), axes(stretch), v([0.0, 3.0, 0.0])));
+    assert!(format!("{:?}", light(1.0)).contains("Sphere(Sphere { center: Vec3 { x: 0.0, y: 3.6"));
+    assert!(format!("{:?}", light(1.001)).contains("Ellipsoid("));
+    let (round, stretched) = ([(light(1.0), 1.0)], [(light(1.001), 1.0)]);
+    let [a, b] = [&round, &stretched].map(|lights| estimate(lights, up(), v([0.0; 3]), 11));
+    assert!((a[0] / b[0] - 1.0).abs() < 0.004, "{a:?} {b:?}");
+    // seen from both sides, by maps that mirror and that do not
+    for mirror in [1.0, -1.0] {
+        let disk = |stretch| {
+            let [x, y, z] = axes(stretch);
+            let disk = Disk::new(v([0.5, 0.0, 0.0]), v([0.0, -0.6, 0.8]), 0.25);
+            [(Emitter::from(Affine::new(disk, [x * mirror, y, z], v([0.0, 3.0, 0.0]))), 1.0)]
+        };
+        let [round, stretched] = [disk(1.0), disk(1.001)];
+        assert!(format!("{round:?}").contains("shape: Disk(") && format!("{stretched:?}").contains("Ellipse("));
+        for side in [up(), Side::Surface(v([0.0, -1.0, 0.0]))] {
+            for height in [0.0, 8.0] {
+                let [a, b] = [&round, &stretched].map(|lights| estimate(lights, side, v([0.3, height, 0.2]), 12));
+                assert!((a[0] - b[0]).abs() <= 0.006 * b[0], "{mirror} {height} {a:?} {b:?}");
+            }
+        }
+    }
+}
