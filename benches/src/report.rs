@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Measured values by id: the benchmark, its function and its parameter.
+/// Measured values by id, which is in the manner of Criterion: the benchmark, its function and its parameter.
 pub struct Report {
     json: Option<PathBuf>,
     baseline: Option<Baseline>,
