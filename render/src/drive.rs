@@ -42,5 +42,5 @@ pub use auto::{AutoTrial, TechniqueChoice};
 pub use light_weights::APART;
 pub use pixel_counts::PixelCounts;
 pub use pixel_statistics::Statistics;
-pub use view::{Content, Samples, View};
+pub use view::{Content, Listener, Samples, View};
 pub use world::World;

@@ -8,10 +8,12 @@
 //! kept while another one is shown, up to 1 GiB of them (`view/work.rs`).
 //!
 //! Samples go to the image that is shown, in passes of about a quarter of the time so far and at most 0.4 s, unless the least pass of the
-//! sampler takes longer. A wish for another image or part ends the pass, whose samples are lost.
+//! sampler takes longer. A wish for another image or part ends the pass, whose samples are lost. While a pass is rendered its tiles are shown,
+//! and before the first one, or while the camera turns, a coarse image of about 0.1 s (`view/draft.rs`).
 
 mod answer;
 mod browser;
+mod draft;
 mod http;
 mod page;
 mod server;
