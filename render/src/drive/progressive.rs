@@ -132,6 +132,9 @@ impl Refinement {
     }
 }
 
+/// Receives an area, and its pixels row by row.
+pub type TileListener<'a> = &'a (dyn Fn(Area, &[Pixel]) + Sync);
+
 /// What goes on beside a pass.
 #[derive(Clone, Copy)]
 pub struct Beside<'a> {
@@ -140,7 +143,7 @@ pub struct Beside<'a> {
     /// Receives the number of newly finished pixels.
     pub progress: &'a (dyn Fn(u64) + Sync),
     /// Receives the pixels of each tile as the image would have them if the pass ended there.
-    pub tile: Option<&'a (dyn Fn(Area, &[Pixel]) + Sync)>,
+    pub tile: Option<TileListener<'a>>,
 }
 
 /// An image that is refined pass by pass, each of the whole or of a part.
