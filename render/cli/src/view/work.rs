@@ -145,7 +145,8 @@ impl Worker<'_> {
                 self.reload(&mut subject, &mut kept, shared);
                 continue;
             }
-            if wishes.save {
+            // a copy of an image that is only begun waits for its first pass
+            if wishes.save && (wishes.paused || shared.lock().picture(wishes.way).is_some()) {
                 self.save_copy(wishes.way, &subject, shared);
                 continue;
             }
