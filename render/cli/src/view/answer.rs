@@ -1,10 +1,10 @@
 //! What the page may ask: its files, what there is to show, an image, and to change what is rendered.
 
-use super::draft::Draft;
+use super::draft::{Draft, Way};
 use super::http::{Body, Request, Response};
 use super::page;
 use super::server::CountGuard;
-use super::state::{Picture, Shared, State, Way};
+use super::state::{Picture, Shared, State};
 use etendue_render::camera::Orbit;
 use etendue_render::film::Film;
 use etendue_render::scene::CameraSettings;

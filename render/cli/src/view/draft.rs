@@ -1,9 +1,8 @@
 //! An image while its first pass or the next one is rendered: coarse as long as nothing else is known of it, then tile by tile.
 
-use super::state::Way;
 use etendue_render::film::{Film, Pixel};
 use etendue_render::scene::area::{self, Area};
-use etendue_render::{Sampler, Sensor, Settings, World};
+use etendue_render::{Sampler, Sensor, Settings, Technique, World};
 use std::time::Instant;
 
 /// Samples of each pixel of a coarse image.
@@ -12,6 +11,13 @@ const SPP: u32 = 4;
 const SIDES: [u32; 4] = [4, 8, 16, 32];
 /// Seconds that a coarse image should take at most, so that the camera is followed while it turns.
 const LONG: f64 = 0.1;
+
+/// How an image is sampled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Way {
+    pub(crate) technique: Technique,
+    pub(crate) sampler: Sampler,
+}
 
 /// What is shown of an image before its pass has ended.
 #[derive(Clone, Debug)]

@@ -1,23 +1,16 @@
 //! What the rendering thread and those of the clients share: what the page wishes, and what there is to show.
 
-use super::draft::Draft;
+use super::draft::{Draft, Way};
 use super::watch::Watch;
+use etendue_render::Technique;
 use etendue_render::camera::Orbit;
 use etendue_render::film::Film;
 use etendue_render::film::claim::Claim;
 use etendue_render::scene::CameraSettings;
 use etendue_render::scene::area::Area;
-use etendue_render::{Sampler, Technique};
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
-
-/// How an image is sampled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Way {
-    pub(crate) technique: Technique,
-    pub(crate) sampler: Sampler,
-}
 
 /// What the page asks for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -174,6 +167,7 @@ impl Shared {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use etendue_render::Sampler;
 
     /// Each wish changes what the wishes before it have left, whoever sends them.
     #[test]

@@ -1,7 +1,7 @@
 //! Renders what the page wishes, pass by pass, and keeps the files up to date.
 
-use super::draft::{Draft, coarse};
-use super::state::{Facts, Picture, Shared, State, Way, Wishes};
+use super::draft::{Draft, Way, coarse};
+use super::state::{Facts, Picture, Shared, State, Wishes};
 use super::watch::Watch;
 use crate::image::ImageOptions;
 use crate::interrupt::Interrupt;
@@ -32,7 +32,8 @@ const MOST_KEPT: u64 = 1 << 30;
 const PASS: [f64; 2] = [0.1, 0.4];
 /// Files are written no more often than that.
 const SAVE: Duration = Duration::from_secs(1);
-/// How long the camera must rest before the image is more than coarse: the next turn need not wait for a pass to begin.
+/// How long the camera must rest before the image is more than coarse, and at least four times as long as that took: the next turn need not
+/// wait for a pass to begin.
 const REST: Duration = Duration::from_millis(300);
 /// Errors are noted at times that differ by this factor, so that a longer rendering has only a few more of them.
 const APART: f64 = 1.1;
@@ -150,7 +151,7 @@ impl Worker<'_> {
                 self.save_copy(wishes.way, &subject, shared);
                 continue;
             }
-            let turns = wishes.orbit != subject.orbit;
+            let (turns, began) = (wishes.orbit != subject.orbit, Instant::now());
             if turns {
                 subject.turn(wishes.orbit);
                 kept.clear();
@@ -160,7 +161,7 @@ impl Worker<'_> {
                 self.pool.install(|| subject.show_coarsely(wishes.way, self.image.sensor, shared));
             }
             if turns {
-                shared.wait(&wishes, REST);
+                shared.wait(&wishes, REST.max(4 * began.elapsed()));
                 continue;
             }
             if let Err(what) = subject.choose(wishes.way, &mut kept, shared, self.goal) {
