@@ -15,7 +15,12 @@
 //! assert!(irradiance.to_array().iter().all(|e| *e > 0.5 && *e < 1.0));
 //! ```
 //!
-//! Start at `lights` (feature `alloc`) for a set of lights of any kind, at [`light`] to sample one, at [`warp`] for maps without a shading point, at [`sequence`] for random numbers, at
+#![cfg_attr(feature = "alloc", doc = "Start at [`lights`] for a set of lights of any kind,")]
+#![cfg_attr(
+    not(feature = "alloc"),
+    doc = "Start at `lights` (these pages were made without its feature `alloc`) for a set of lights of any kind,"
+)]
+//! at [`light`] to sample one, at [`warp`] for maps without a shading point, at [`sequence`] for random numbers, at
 //! [`estimate`] for weights of combined techniques, and at [`select`] to choose among lights.
 //!
 //! # The contract
@@ -31,7 +36,7 @@
 #![doc = include_str!("index.md")]
 //!
 //! # Features
-//! None is on by default. `alloc` adds `lights`, sets of lights of any kind, and `owned`: trees, environments and pictures with their memory on the heap. `glam` converts vectors to and from those of `glam`, `mint` to and from those of `mint`, which `nalgebra` and `cgmath` convert, too; `rand` makes `sequence::CounterRng` a generator of `rand_core`.
+//! None is on by default. `alloc` adds `lights`, sets of lights of any kind, and trees, environments and pictures with their memory on the heap. `glam` converts vectors to and from those of `glam`, `mint` to and from those of `mint`, which `nalgebra` and `cgmath` convert, too; `rand` makes `sequence::CounterRng` a generator of `rand_core`.
 //! `same-bits` makes [all processors](real::SAME_BITS) return the same bits.
 //!
 //! A host's own function over this library takes `R: Real<Scalar = f32>`; for single numbers alone, `f32`. The methods `greater` and `lesser` are

@@ -101,6 +101,9 @@
 //!
 //! [`Lights`] are of `f32` or `f64`, and compiled with this library: a debug build of a host with `opt-level = 3` for its dependencies calls
 //! optimised code.
+//!
+//! What cannot send light, such as a sphere with a negative radius, is dark without a word. The sample of an empty set has the weight 0 and
+//! names light 0: a host that looks that up asks [`Lights::is_empty`] first.
 
 mod emission;
 mod emitter;

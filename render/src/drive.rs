@@ -34,5 +34,5 @@ mod view;
 mod world;
 
 pub use auto::{AutoTrial, TechniqueChoice};
-pub use view::View;
+pub use view::{Listener, View};
 pub use world::World;

@@ -172,9 +172,44 @@ fn lists_are_sound() {
     }
 }
 
+/// What the states on the pages mean.
+const STATES: &str = "Exact: it means what the format says. No effect: it changes no picture. Approximated: something near replaces it. \
+    Ignored: it is left out, and a warning says so. Refused: it is an error. With `--strict`, what is approximated or ignored is one, too.";
+/// A whole scene, with which the page of pbrt begins.
+const SMALLEST: &str = r#"LookAt 0 2 6  0 1 0  0 1 0
+Camera "perspective" "float fov" 45
+Film "rgb" "integer xresolution" 320 "integer yresolution" 240
+WorldBegin
+AttributeBegin
+  AreaLightSource "diffuse" "rgb L" [8 8 8]
+  Translate 2 3 0
+  Shape "sphere" "float radius" 0.5
+AttributeEnd
+Material "diffuse" "rgb reflectance" [0.5 0.5 0.5]
+Shape "bilinearmesh" "point3 P" [-5 0 5  5 0 5  -5 0 -5  5 0 -5]
+Translate 0 1 0
+Shape "sphere"
+"#;
+
+#[test]
+fn the_smallest_scene_is_read_as_it_is() {
+    let scene = parse(SMALLEST, "smallest.pbrt", std::path::Path::new(".")).unwrap();
+    assert!(scene.warnings.is_empty() && scene.stand_ins.is_empty(), "{:?}", scene.warnings);
+    let lights = scene.shapes.iter().filter(|shape| shape.emission.is_some()).count();
+    assert_eq!((lights, scene.film.width), (1, 320));
+}
+
 /// A table as a page of Markdown.
 fn page(table: &Table, title: &str) -> String {
-    let mut page = format!("# {title}\n");
+    let mut page = format!("# {title}\n\n{STATES}\n");
+    if std::ptr::eq(table, &raw const *PBRT) {
+        let _ = write!(
+            page,
+            "\nA whole scene, which `etendue render FILE` draws (more are in [scenes](../scenes)):\n\n```\n{SMALLEST}```\n"
+        );
+    } else {
+        page.push_str("\nMeshes whose material has an `emissiveFactor` are area lights; `KHR_lights_punctual` has point, spot and directional ones.\n");
+    }
     for Entry { name, kinds, state, note, parameters } in &table.entries {
         let kinds: String = kinds.iter().map(|kind| format!(" `\"{kind}\"`")).collect();
         let note = if note.is_empty() { String::new() } else { format!(": {note}") };

@@ -6,8 +6,8 @@ function make(tag, text = "") {
   element.textContent = text;
   return element;
 }
-/** How long the page waits between two questions, in milliseconds. */
-const PAUSE = 200;
+/** How long the page waits between two questions, in milliseconds: usually, and while the image is coarse. */
+const [PAUSE, SHORT] = [200, 40];
 
 class View {
   constructor() {
@@ -34,7 +34,7 @@ class View {
         if (error instanceof TypeError || /^\d+$/.test(error.message)) byId("lost").hidden = false;
         else throw error;
       }
-      await new Promise((done) => setTimeout(done, PAUSE));
+      await new Promise((done) => setTimeout(done, this.isAsking || (this.status && this.status.draft && this.status.draft.coarse) ? SHORT : PAUSE));
     }
   }
   /** Receives the images that are shown, if there are newer ones. */
@@ -47,10 +47,12 @@ class View {
       if (pixels) this.pixels.set(reference, Object.assign(pixels, { name: reference }));
       this.frame();
     }
-    for (const { way, version } of this.status.pictures) {
+    const { draft, pictures } = this.status;
+    const drawn = draft ? [draft, ...pictures.filter((p) => nameOf(p.way) !== nameOf(draft.way))] : pictures;
+    for (const { way, version } of drawn) {
       const name = nameOf(way);
       const known = this.pixels.get(name);
-      if (!names.includes(name) || (known && known.version >= version)) continue;
+      if (!names.includes(name) || (known && known.version === version)) continue;
       const pixels = await receive(way);
       if (!pixels) continue;
       pixels.name = name;
@@ -99,7 +101,7 @@ class View {
       ["samples", picture ? `${short(picture.spp)} per pixel` : "none yet"],
       ["error", picture ? percent(picture.error) + (status.target ? `, ${percent(status.target)} wanted` : "") : "not known yet"],
       ["time", picture ? `${picture.seconds.toFixed(1)} s` : "0 s"],
-      ["now", status.paused ? "paused" : !picture ? "its first pass; the image before it is still shown" : picture.end ? `no more samples: ${picture.end}` : "rendering"],
+      ["now", status.paused ? "paused" : !picture ? "its first pass, over a coarse image" : picture.end ? `no more samples: ${picture.end}` : "rendering"],
     ];
     if (picture && picture.systematic > 0) facts.splice(2, 0, ["of which", `at most ${percent(picture.systematic)} comes from approximations`]);
     if (picture && picture.uncertain) facts.splice(2, 0, ["uncertain", `since ${picture.uncertain}`]);
@@ -148,7 +150,9 @@ class View {
     const pixels = this.pixels.get(nameOf(status.way)) || this.last;
     if (!pixels) return;
     this.last = pixels;
-    const other = this.pixels.get(this.other);
+    // pixel by pixel, only images of one size are compared
+    const compared = this.pixels.get(this.other);
+    const other = compared && compared.width === pixels.width ? compared : undefined;
     const asked = byId("layer").value;
     const compares = asked === "difference" || asked === "relative";
     const layer = compares && !other ? "radiance" : asked;
@@ -164,13 +168,13 @@ class View {
     this.isSplit = Boolean(other) && !compares;
     if (this.isSplit) this.second.update(other, layer, gain, range);
     const crop = this.dragged || status.crop;
-    draw(byId("image"), this.lens, this.first.canvas, this.isSplit && this.second.canvas, byId("wipe").value / 100, all.map((p) => p.name), crop, cursor);
+    draw(byId("image"), this.lens, status.size, this.first.canvas, this.isSplit && this.second.canvas, byId("wipe").value / 100, all.map((p) => p.name), crop, cursor);
     byId("legend").textContent = compares && !other ? "Choose an image B to compare with." : "";
     byId("bar").hidden = layer === "radiance";
     byId("range").hidden = !(layer in MAPS);
     if (layer !== "radiance") {
       const scale = scaleOf(layer, range, status.sensor);
-      bar(byId("bar"), scale, layer in MAPS && this.first.counts);
+      bar(byId("bar"), scale, this.first.counts);
       byId("bar").setAttribute("aria-label", `${scale.title}: from ${scale.format(scale.at(0))} to ${scale.format(scale.at(1))}`);
     }
     this.read(all);
@@ -179,8 +183,8 @@ class View {
   read(all) {
     const { cursor } = this;
     byId("place").textContent = cursor ? `Pixel (${cursor.join(", ")}): the value, and its standard error` : "Point at a pixel to read its value and its error.";
-    const rows = !cursor ? [] : all.filter((p) => cursor[0] < p.width && cursor[1] < p.height).map((pixels) => {
-      const i = cursor[1] * pixels.width + cursor[0];
+    const rows = !cursor ? [] : all.map((pixels) => {
+      const i = indexAt(pixels, cursor, this.status.size);
       const row = make("tr");
       row.append(make("th", pixels.name));
       for (const c of [0, 1, 2]) row.append(make("td", `${"RGB"[c]} ${short(pixels.mean[3 * i + c])} ± ${short(Math.sqrt(pixels.variance[3 * i + c]))}`));
@@ -308,6 +312,7 @@ class View {
     while (this.orbit) {
       const orbit = this.orbit;
       await this.wish({ orbit });
+      await this.load().catch(() => {});
       if (this.orbit === orbit) this.orbit = null;
     }
     this.isAsking = false;

@@ -18,6 +18,8 @@ async function receive(way) {
   };
 }
 
+/** The index of the pixel of an image, which may be coarse, at a place in one of this size. */
+const indexAt = ({ width, height }, [x, y], size) => Math.floor((y * height) / size[1]) * width + Math.floor((x * width) / size[0]);
 /** Variance of a pixel's mean: the mean over the channels. */
 const spread = ({ variance }, i) => (variance[3 * i] + variance[3 * i + 1] + variance[3 * i + 2]) / 3;
 const brightness = ({ mean }, i) => RED * mean[3 * i] + GREEN * mean[3 * i + 1] + BLUE * mean[3 * i + 2];
@@ -98,22 +100,27 @@ class Drawn {
     }
   }
   difference(words, a, b, isRelative, [, most]) {
+    this.counts = new Float64Array(BINS);
     for (let i = 0; i < words.length; i++) {
       const x = gap(a, b, i, isRelative);
       words[i] = Number.isFinite(x) ? tint(x / most) : NONE;
+      if (Number.isFinite(x)) this.count((x / most + 1) / 2);
     }
+  }
+  /** Counts a pixel whose colour is this part of the way along the bar. */
+  count(t) {
+    this.counts[Math.max(0, Math.min(BINS - 1, Math.floor(t * BINS)))]++;
   }
   map(words, pixels, layer, [low, high]) {
     const of = MAPS[layer](pixels);
     const scale = high > low ? 1 / Math.log(high / low) : 0;
-    // how many pixels have each part of the colours
     this.counts = new Float64Array(BINS);
     for (let i = 0; i < words.length; i++) {
       const x = of(i);
       const t = scale === 0 ? 0.5 : Math.log(x / low) * scale;
       const isKnown = Number.isFinite(x) && x >= 0;
       words[i] = isKnown ? heat(t) : NONE;
-      if (isKnown) this.counts[Math.max(0, Math.min(BINS - 1, Math.floor(t * BINS)))]++;
+      if (isKnown) this.count(t);
     }
   }
 }
@@ -169,15 +176,15 @@ class Lens {
   }
 }
 
-/** Draws the image, the other one right of the line with the names of both, the part that receives samples, and the pixel that is read. */
-function draw(canvas, lens, first, second, wipe, names, crop, cursor) {
+/** Draws the image of this size, the other one right of the line with the names of both, the part that receives samples, and the pixel that is read. */
+function draw(canvas, lens, size, first, second, wipe, names, crop, cursor) {
   fit(canvas);
   const context = canvas.getContext("2d");
-  lens.update(canvas, [first.width, first.height]);
+  lens.update(canvas, size);
   context.clearRect(0, 0, canvas.width, canvas.height);
   context.imageSmoothingEnabled = lens.zoom < 2 && lens.zoom !== 1;
   const [left, top] = lens.toCanvas(canvas, [0, 0]).map(Math.round);
-  const place = [left, top, Math.round(first.width * lens.zoom), Math.round(first.height * lens.zoom)];
+  const place = [left, top, ...size.map((side) => Math.round(side * lens.zoom))];
   context.drawImage(first, ...place);
   if (second) {
     const x = Math.round(wipe * canvas.width);

@@ -19,9 +19,9 @@ function decades(numbers) {
   if (high - low < 1) [low, high] = [(low + high - 1) / 2, (low + high + 1) / 2];
   return [low - 0.05 * (high - low), high + 0.05 * (high - low)];
 }
-/** Where lines of a scale are: at 1, 2 and 5 times powers of ten, or at the powers alone if that would be many. */
+/** Where lines of a scale are: at 1, 2 and 5 times powers of ten, at 1 and 3 times, or at the powers alone if that would be many. */
 function ticks([low, high]) {
-  const steps = high - low < 1.7 ? [1, 2, 5] : [1];
+  const steps = high - low < 1.3 ? [1, 2, 5] : high - low < 3 ? [1, 3] : [1];
   const all = [];
   for (let k = Math.floor(low); k <= high; k++) for (const m of steps) all.push(m * 10 ** k);
   return all.filter((x) => Math.log10(x) >= low && Math.log10(x) <= high);
@@ -67,7 +67,7 @@ function plot(canvas, pictures, shown, target) {
   context.save();
   context.translate(14 * r, (top + bottom) / 2);
   context.rotate(-Math.PI / 2);
-  context.fillText("estimated relative RMS error", 0, 0);
+  context.fillText("relative RMS error", 0, 0);
   context.restore();
   context.textAlign = "right";
   for (const e of ticks(y)) {

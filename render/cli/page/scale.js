@@ -17,11 +17,12 @@ function bar(canvas, { color, at, title, format }, counts) {
   }
   const style = getComputedStyle(canvas);
   context.fillStyle = style.color;
-  const most = counts ? Math.max(...counts) : 0;
+  // one colour, such as that of black pixels, may have nearly all
+  const most = counts ? [...counts].sort((a, b) => b - a)[1] || Math.max(...counts) : 0;
   if (most > 0) {
     const each = (right - left) / counts.length;
     counts.forEach((count, k) => {
-      const tall = (count / most) * (top - 2 * r);
+      const tall = Math.min(1, count / most) * (top - 2 * r);
       context.fillRect(left + k * each, top - 2 * r - tall, Math.max(1, each - r), tall);
     });
   }
@@ -39,11 +40,11 @@ function scaleOf(layer, [low, high], sensor) {
   if (layer === "relative") return signed("(A − B) / B, mean over R, G and B; grey where B is 0", (x) => `${short(100 * x)} %`);
   const titles = {
     samples: "samples of a pixel",
-    variance: `variance of a pixel's mean, (${unit})²; grey is not known`,
-    error: "where the error is: standard error of a pixel over the mean of the image; grey is not known",
+    variance: `variance of a pixel's mean, (${unit})²; grey: not known`,
+    error: "standard error of a pixel over the mean of the image; grey: not known",
     luminance: `luminance, ${unit}`,
   };
   const at = (t) => low * (high / low) ** t;
   const format = { samples: (x) => short(Math.round(x)), error: (x) => `${short(Number((100 * x).toPrecision(2)))} %` };
-  return { color: heat, at, title: `${titles[layer] ?? `${layer}, ${unit}`}, logarithmic`, format: format[layer] ?? ((x) => short(Number(x.toPrecision(2)))) };
+  return { color: heat, at, title: `logarithmic: ${titles[layer] ?? `${layer}, ${unit}`}`, format: format[layer] ?? ((x) => short(Number(x.toPrecision(2)))) };
 }

@@ -6,10 +6,15 @@ use etendue_render::film::claim::Claim;
 use etendue_render::scene::Input;
 use etendue_render::{Technique, film::files, film::image};
 use std::fmt;
+use std::num::NonZero;
 use std::path::PathBuf;
+use std::thread::available_parallelism;
 
 /// The line between both images in pixels.
 const LINE: u32 = 2;
+
+/// The part of the processors' time that a program has where nothing else runs, at least.
+const OWN: f64 = 0.75;
 
 /// What the picture shows beside the image.
 pub(crate) struct Beside {
@@ -23,14 +28,30 @@ pub(crate) struct Cost {
     pub(crate) seconds: f64,
     pub(crate) shadow_rays: u64,
     pub(crate) error: Option<Claim>,
+    /// Samples per pixel of each of its passes; none if it was rendered at once.
+    pub(crate) passes: Vec<u32>,
 }
 
 impl fmt::Display for Cost {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { technique, seconds, shadow_rays, error } = self;
+        let Self { technique, seconds, shadow_rays, error, passes } = self;
         let error = error.map_or_else(|| "not known".to_owned(), |claim| percent(claim.total()));
-        write!(f, "{technique}: {seconds:.1} s, {} shadow rays, error {error}", grouped(*shadow_rays))
+        write!(f, "{technique}: {seconds:.1} s, {} shadow rays, error {error}", grouped(*shadow_rays))?;
+        if passes.len() > 1 {
+            let passes = passes.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
+            write!(f, ", in passes of {passes} samples per pixel: as many at once have a smaller error")?;
+        }
+        Ok(())
     }
+}
+
+/// What to add to the times of images if the processors had other work: `processor` seconds of so many threads in so many seconds.
+pub(crate) fn other_work(seconds: f64, threads: usize, processor: f64) -> Option<String> {
+    let cores = available_parallelism().map_or(1, NonZero::get).min(threads);
+    let part = processor / (seconds * cores as f64);
+    let what =
+        "the processors had other work, so that the seconds, and the left image, are not those of an idle machine";
+    (part < OWN).then(|| format!("{what}: this program had {:.0} % of their time", 100.0 * part))
 }
 
 impl Beside {
@@ -66,5 +87,27 @@ impl Beside {
         let written = image::encode_png([width, height], &pixels).map_err(|error| error.to_string());
         written.and_then(|bytes| files::replace(&self.png, &bytes).map_err(|error| error.to_string()))?;
         Ok(format!("wrote {}", self.png.display()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn passes_are_told_where_they_count() {
+        let cost = |passes: &[u32]| {
+            let (technique, passes) = ("area".to_owned(), passes.to_vec());
+            Cost { technique, seconds: 1.0, shadow_rays: 1000, error: None, passes }.to_string()
+        };
+        assert_eq!(cost(&[16]), "area: 1.0 s, 1,000 shadow rays, error not known");
+        let said = ", in passes of 16, 8 samples per pixel: as many at once have a smaller error";
+        assert_eq!(cost(&[16, 8]), cost(&[]) + said);
+    }
+
+    #[test]
+    fn other_work_is_noted() {
+        assert_eq!(other_work(10.0, 1, 9.0), None);
+        assert!(other_work(10.0, 1, 4.0).unwrap().ends_with(": this program had 40 % of their time"));
     }
 }

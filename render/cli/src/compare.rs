@@ -32,6 +32,11 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     if !(error.is_finite() && error >= 0.0) {
         return Err(format!("--reference-error: must be a number of at least 0, not {error}").into());
     }
+    let is_png = |path: &&PathBuf| path.extension().is_some_and(|text| text.eq_ignore_ascii_case("png"));
+    if let Some(png) = [&options.reference, &options.image].into_iter().find(is_png) {
+        let exr = png.with_extension("exr");
+        return Err(format!("{}: EXR files are compared, such as {}", png.display(), exr.display()).into());
+    }
     let reference = image::read_exr(&options.reference)?;
     let other = image::read_exr(&options.image)?;
     if options.claim {

@@ -80,7 +80,7 @@ impl Interrupt {
     /// Takes note of the bar to clear and the file that is not written yet.
     pub(crate) fn watch(&self, bar: &ProgressBar, file: &Path) {
         let state = if file.exists() { "is unchanged" } else { "does not exist" };
-        let text = format!("nothing was written; {} {state}", file.display());
+        let text = format!("{} {state}", file.display());
         *self.lock() = Status { bar: bar.clone(), text, last: None, stop: None };
     }
     /// Like [`watch`](Self::watch), for a rendering that ends soon after its stop is set, and then writes what it has and

@@ -1,6 +1,6 @@
 //! `etendue render`: renders a scene with a given number of samples, or until its error or the time is what was asked for.
 
-use crate::beside::{Beside, Cost};
+use crate::beside::{Beside, Cost, other_work};
 use crate::command_line::line;
 use crate::hints::{hint, wasted, windows};
 use crate::image::ImageOptions;
@@ -10,6 +10,7 @@ use crate::progress::bar;
 use clap::Args;
 use etendue_laboratory::cost::median;
 use etendue_laboratory::options::{named, out, pool, say, whole};
+use etendue_laboratory::processor_time::processor_seconds;
 use etendue_render::drive::AutoTrial;
 use etendue_render::drive::progressive::{self, Goal, Pass, Progress, Refinement};
 use etendue_render::film::Film;
@@ -20,7 +21,7 @@ use serde_json::{Value, json};
 use std::error::Error;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 #[derive(Args)]
 pub(crate) struct Options {
@@ -149,6 +150,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
 
     let studio = Session { world: &world, identity, settings, output: &output, interrupt: &interrupt };
     let technique = beside.as_ref().map(|beside| beside.technique);
+    let (start, processor) = (Instant::now(), processor_seconds());
     let (mut done, other) = pool.install(move || -> Result<_, String> {
         let done = match &plan {
             None => studio.once(options.repeat),
@@ -159,6 +161,8 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         Ok((done, other.transpose()?))
     })?;
 
+    let processor = processor_seconds().zip(processor).map(|(after, before)| after - before);
+    let note = processor.and_then(|p| other_work(start.elapsed().as_secs_f64(), pool.current_num_threads(), p));
     let chosen = settings.technique;
     let times = [load, build];
     let said = if options.json {
@@ -171,6 +175,9 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     said.map_err(|error| output.were_written(&error))?;
     if let (Some(beside), Some(other)) = (beside, other) {
         show_beside(&beside, other, &done, title(asked.technique, chosen), exposure)?;
+        if let Some(note) = note {
+            writeln!(out(), "note: {note}")?;
+        }
     }
     // glTF has no portals
     let name = image.scene.to_string_lossy().to_ascii_lowercase();
@@ -200,8 +207,11 @@ fn show_beside(
         seconds: other.seconds,
         shadow_rays: other.rays.shadow,
         error: other.error,
+        passes: other.passes.iter().map(|pass| pass.spp).collect(),
     };
-    let right = Cost { technique, seconds: median(&done.seconds), shadow_rays: done.rays.shadow, error: done.error };
+    let passes = done.passes.iter().map(|pass| pass.spp).collect();
+    let (seconds, shadow_rays) = (median(&done.seconds), done.rays.shadow);
+    let right = Cost { technique, seconds, shadow_rays, error: done.error, passes };
     writeln!(out(), "{wrote}: the same scene in about the same time\n  left   {left}\n  right  {right}")?;
     Ok(())
 }
@@ -271,10 +281,16 @@ impl Session<'_> {
             None => bar.inc(done),
         };
         let aim = plan.goal.error.map_or_else(String::new, |target| format!(", {} wanted", percent(target)));
+        let mut noted = began;
         let start = |known: Option<&Progress>, spp: u32| {
             let error =
                 known.and_then(|p| p.error).map_or_else(|| "not known yet".to_owned(), |claim| percent(claim.total()));
             bar.set_message(format!("error {error}{aim}; next {spp} spp"));
+            // a file or a pipe has no bar, and seconds later whoever waits wants to know
+            if bar.is_hidden() && noted.elapsed() >= NOTED {
+                noted = Instant::now();
+                say(format_args!("after {:.0} s: error {error}{aim}; next {spp} spp", began.elapsed().as_secs_f64()));
+            }
             if plan.goal.seconds.is_none() {
                 bar.set_position(0);
             }
@@ -312,6 +328,9 @@ impl Session<'_> {
         Ok((done?, settings.technique))
     }
 }
+
+/// How often passes are noted where no bar shows them, at most.
+const NOTED: Duration = Duration::from_secs(10);
 
 /// What `auto` has taken, over what, and by how much.
 fn taken(settings: &Settings, (trial, seconds): &(AutoTrial, f64)) -> String {
@@ -430,7 +449,8 @@ fn print(
     }
     if !image.passes.is_empty() {
         let spp: Vec<String> = image.passes.iter().map(|p| p.spp.to_string()).collect();
-        writeln!(out, "passes of {} samples per pixel", spp.join(", "))?;
+        let less = if spp.len() > 1 { ": their mean has a greater error than as many samples at once" } else { "" };
+        writeln!(out, "passes of {} samples per pixel{less}", spp.join(", "))?;
     }
     let render = median(&image.seconds);
     writeln!(out, "load {load:.3} s, build {build:.3} s, render {render:.3} s")?;

@@ -8,10 +8,12 @@
 //! kept while another one is shown, up to 1 GiB of them (`view/work.rs`).
 //!
 //! Samples go to the image that is shown, in passes of about a quarter of the time so far and at most 0.4 s, unless the least pass of the
-//! sampler takes longer. A wish for another image or part ends the pass, whose samples are lost.
+//! sampler takes longer. A wish for another image or part ends the pass, whose samples are lost. While a pass is rendered its tiles are shown,
+//! and before the first one, or while the camera turns, a coarse image of about 0.1 s (`view/draft.rs`).
 
 mod answer;
 mod browser;
+mod draft;
 mod http;
 mod page;
 mod server;
@@ -25,6 +27,7 @@ use crate::output::Output;
 use crate::progress::bar;
 use crate::render::{fraction, seconds};
 use clap::Args;
+use draft::Way;
 use etendue_laboratory::options::{out, pool, say, whole};
 use etendue_render::Settings;
 use etendue_render::drive::progressive::{Goal, Refinement};
@@ -32,7 +35,7 @@ use etendue_render::film::image::{Picture, read_exr};
 use etendue_render::film::{Film, Pixel};
 use etendue_render::sampler::default_sampler;
 use server::Server;
-use state::{Shared, Way};
+use state::Shared;
 use std::error::Error;
 use std::io::Write;
 use std::path::{Path, PathBuf};

@@ -79,7 +79,7 @@ def watch_to_the_end(browser):
     """A render until its goal: the page shows the pixels of the PNG, and the numbers of the pixel under the cursor."""
     viewer = Viewer("quads", "--size", "160x120", "--technique", "solid-angle", "--error", "0.5%", "-o", "end.exr")
     try:
-        browser.open(viewer.url, "window.view && window.view.last")
+        browser.open(viewer.url, "window.view && view.last && view.status.pictures.length")
         updates = browser.evaluate("view.updates")
         browser.wait("view.status.pictures[0].end", 60)
         browser.wait("view.last.version === view.status.pictures[0].version")
@@ -180,7 +180,7 @@ def switch_and_compare(browser):
     """Techniques and samplers are switched and keep their samples; a part receives all; the slider is between two images."""
     viewer = Viewer("quads", "--size", "96x64", "--technique", "area", "--sampler", "sobol", "-o", "switch.exr")
     try:
-        browser.open(viewer.url, "window.view && window.view.last")
+        browser.open(viewer.url, "window.view && view.last && view.status.pictures.length")
         browser.wait("view.status.pictures[0].spp > 64")
         browser.choose("technique", "brdf")
         browser.wait("view.pixels.get('brdf, sobol')")
@@ -258,7 +258,7 @@ def switch_and_compare(browser):
         for options in ["{}", "{method: 'POST', body: '{\"paused\":true}', mode: 'no-cors'}"]:
             asked = f"fetch({json.dumps(viewer.url + 'wish')}, {options}).then((a) => a.status, () => -1)"
             assert browser.evaluate(asked) in (-1, 0), options
-        browser.open(viewer.url, "window.view && window.view.last")
+        browser.open(viewer.url, "window.view && view.last && view.status.pictures.length")
         assert browser.evaluate("[view.status.pictures.length, view.status.paused]") == [3, False]
         # small windows
         browser.resize(400, 800, touch=True)
@@ -280,7 +280,7 @@ def turn_and_save(browser):
     before = set(os.listdir())
     viewer = Viewer("studio", "--size", "96x72", "--technique", "area", "--sampler", "sobol")
     try:
-        browser.open(viewer.url, "window.view && window.view.last")
+        browser.open(viewer.url, "window.view && view.last && view.status.pictures.length")
         browser.wait("view.status.pictures[0].spp > 512")
         still = browser.evaluate("[...view.last.mean.slice(0, 3 * 96)]")
         browser.click("#turn")
@@ -309,7 +309,7 @@ def change_the_scene(browser):
     Path("a.pbrt").write_text(SCENE.format(64))
     viewer = Viewer("a.pbrt", "-o", "scene.exr")
     try:
-        browser.open(viewer.url, "window.view && window.view.last")
+        browser.open(viewer.url, "window.view && view.last && view.status.pictures.length")
         assert browser.evaluate("document.getElementById('changed').hidden")
         # also while the camera moves
         browser.click("#turn")
@@ -336,7 +336,7 @@ def measure(browser):
     """How often a picture of 640 × 480 pixels is shown anew, and how long it takes the page."""
     viewer = Viewer("quads", "--size", "640x480", "--technique", "solid-angle", "--sampler", "sobol", "-o", "measure.exr")
     try:
-        browser.open(viewer.url, "window.view && window.view.last")
+        browser.open(viewer.url, "window.view && view.last && view.status.pictures.length")
         updates, busy, start = browser.evaluate("view.updates"), browser.busy(), time.monotonic()
         time.sleep(4)
         updates, busy = browser.evaluate("view.updates") - updates, browser.busy() - busy

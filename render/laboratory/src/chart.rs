@@ -186,10 +186,15 @@ fn render(
         notes.push(format!("{left_out} of {all} images are left out: their series take over {times} times as long as the best for the same error"));
     }
     if done + left_out < all {
-        notes.push(format!("stopped early: {done} of {all} measurements; run the same command again for the rest"));
+        notes.push(format!(
+            "{EARLY}: {done} of {all} measurements, so that only what these have is compared; the same command goes on with the rest"
+        ));
     }
     Ok(rows)
 }
+
+/// How the note begins that says that measurements are missing.
+const EARLY: &str = "stopped early";
 
 /// Prefix of a scene's file names: its name with special characters replaced, and a number if two scenes share it.
 fn stem(summaries: &[Summary], scene: &str) -> String {
@@ -232,9 +237,13 @@ pub fn run(options: &Options, command: &str) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Prints what each scene's series take to reach errors, and the notes.
+/// Prints what each scene's series take to reach errors, and the notes; first that they are not complete.
 fn print(outcome: &Outcome, page: &Path) -> std::io::Result<()> {
     let mut out = out();
+    let (early, notes): (Vec<_>, Vec<_>) = outcome.notes.iter().partition(|note| note.starts_with(EARLY));
+    for note in early {
+        writeln!(out, "{note}")?;
+    }
     for summary in &outcome.summaries {
         let sentences = summary.sentences();
         for sentence in &sentences {
@@ -259,7 +268,7 @@ fn print(outcome: &Outcome, page: &Path) -> std::io::Result<()> {
         let words = "errors are relative RMS; about: beyond the images measured, or from one; slope: of log squared error over log samples; ?: not known from so few images";
         writeln!(out, "{words}")?;
     }
-    for note in outcome.clock.remark().iter().chain(&outcome.notes) {
+    for note in outcome.clock.remark().iter().chain(notes) {
         writeln!(out, "{note}")?;
     }
     writeln!(out, "wrote {}", page.display())

@@ -174,7 +174,12 @@ fn decode(path: &Path, bytes: &[u8], shown: &str, asked: &Asked) -> Result<(Scen
     }
     only_camera(shown, asked)?;
     #[cfg(feature = "pbrt")]
-    return Ok((pbrt::read(path, bytes, shown)?, false));
+    return pbrt::read(path, bytes, shown).map(|scene| (scene, false)).map_err(|mut message| {
+        if !shown.contains(".pbrt") && message.file == shown && message.text.starts_with("unknown directive") {
+            message.text += "; a file whose name does not end in .gltf or .glb is read as one of pbrt";
+        }
+        message
+    });
     #[cfg(not(feature = "pbrt"))]
     return Err(Message {
         file: shown.to_owned(),

@@ -7,7 +7,7 @@ use std::sync::LazyLock;
 pub enum State {
     /// It means here what the format says.
     Exact,
-    /// As exact: it changes nothing of what is rendered, and the reader need not ask for it.
+    /// It has no effect on what is rendered, in other renderers either, and the reader need not ask for it.
     Inert,
     /// It is replaced by something near to it.
     Approximated,
@@ -21,9 +21,9 @@ impl State {
     /// Names in the tables and on the pages.
     const NAMES: [(&'static str, &'static str, Self); 5] = [
         ("exact", "exact", Self::Exact),
-        ("inert", "exact: changes nothing", Self::Inert),
+        ("inert", "no effect", Self::Inert),
         ("approximated", "approximated", Self::Approximated),
-        ("ignored", "ignored, with a warning", Self::Ignored),
+        ("ignored", "ignored", Self::Ignored),
         ("refused", "refused", Self::Refused),
     ];
     /// Its name on the page.
@@ -102,7 +102,7 @@ impl Table {
                 });
             } else {
                 let (name, kinds) = head.split_once(" \"").unwrap_or((head, ""));
-                let kinds = kinds.trim_end_matches('"').split("\" \"");
+                let kinds = kinds.strip_suffix('"').unwrap_or(kinds).split("\" \"");
                 let kinds = if head.contains('"') { kinds.collect() } else { Vec::new() };
                 entries.push(Entry { name, kinds, state, note, parameters: Vec::new() });
             }

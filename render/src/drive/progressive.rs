@@ -5,6 +5,7 @@
 //! never on the samples. The number of samples of a pass, and the decision to stop, depend on the time, or on the error of the whole
 //! image so far; to that a pixel contributes no more than its share in the sum over all pixels.
 
+use super::view::Listener;
 use super::world::World;
 use crate::bvh::RayCount;
 use crate::film::claim::{Claim, Foreseen, why_unknown};
@@ -131,6 +132,20 @@ impl Refinement {
     }
 }
 
+/// Receives an area, and its pixels row by row.
+pub type TileListener<'a> = &'a (dyn Fn(Area, &[Pixel]) + Sync);
+
+/// What goes on beside a pass.
+#[derive(Clone, Copy)]
+pub struct Beside<'a> {
+    /// As soon as it is true, the pass ends and is thrown away.
+    pub stop: &'a AtomicBool,
+    /// Receives the number of newly finished pixels.
+    pub progress: &'a (dyn Fn(u64) + Sync),
+    /// Receives the pixels of each tile as the image would have them if the pass ended there.
+    pub tile: Option<TileListener<'a>>,
+}
+
 /// An image that is refined pass by pass, each of the whole or of a part.
 ///
 /// Passes that are too small for the sampler of larger ones are a preview: they are no part of the image as soon as there is a larger one,
@@ -202,23 +217,22 @@ impl Refined {
     }
 
     /// Renders one more pass, of `spp` samples for each pixel of an area that consists of [tiles](Settings::is_of_tiles), and returns what
-    /// is known after it. `progress` receives the number of newly finished pixels. As soon as `stop` is true, the pass ends and is thrown
-    /// away, and nothing is returned.
+    /// is known after it; nothing if it is stopped.
     ///
     /// # Panics
     /// Panics if the first pass is not of the whole image, or the first with the sampler of large ones.
-    pub fn pass(
-        &mut self,
-        world: &World,
-        spp: u32,
-        area: Area,
-        stop: &AtomicBool,
-        progress: &(dyn Fn(u64) + Sync),
-    ) -> Option<&Progress> {
+    pub fn pass(&mut self, world: &World, spp: u32, area: Area, beside: Beside<'_>) -> Option<&Progress> {
         let (settings, began) = (self.plan.settings, Instant::now());
         let of_pass =
             Settings { spp, sampler: self.plan.sampler_of(spp), seed: seed(settings.seed, self.index), ..settings };
-        let (pixels, rays) = world.view(&of_pass).stopped_by(stop).render(area, progress);
+        let Beside { stop, progress, tile } = beside;
+        let before = &*self;
+        let listener = tile.map(|tile| {
+            move |area: Area, pixels: &[Pixel], spp: u32| tile(area, &before.joined(pixels, area, spp, of_pass.sampler))
+        });
+        let view = world.view(&of_pass).stopped_by(stop);
+        let view = listener.as_ref().map_or(view, |listener| view.told_to(listener as Listener<'_>));
+        let (pixels, rays) = view.render(area, progress);
         if stop.load(Ordering::Relaxed) {
             return None;
         }
@@ -251,6 +265,22 @@ impl Refined {
         };
         Some(self.known.insert(mean))
     }
+
+    /// Pixels of an area in a pass of so many samples, joined to what is known of them.
+    fn joined(&self, pixels: &[Pixel], area: Area, spp: u32, sampler: Sampler) -> Vec<Pixel> {
+        let Some(known) = self.known.as_ref().filter(|known| known.passes[0].sampler == sampler) else {
+            return pixels.to_vec();
+        };
+        let (own, width) = (f64::from(spp).powf(self.plan.power()), known.film.width as usize);
+        let join = |(pixel, [x, y]): (&Pixel, [u32; 2])| {
+            let index = y as usize * width + x as usize;
+            let before = self.weights[index.min(self.weights.len() - 1)];
+            let mut mean = known.film.pixels[index];
+            mean.approach(pixel, own / (before + own));
+            mean
+        };
+        pixels.iter().zip(area::pixels(area)).map(join).collect()
+    }
 }
 
 /// Renders an image in passes until its goal is reached. `progress` receives the number of newly finished pixels of a pass, `start`
@@ -272,12 +302,13 @@ pub fn render(
     let pixels = f64::from(settings.width) * f64::from(settings.height);
     let mut refined = Refined::new(world, plan)?;
     let (counts, full, never) = (&refined.counts, refined.full, AtomicBool::new(false));
+    let beside = Beside { stop: &never, progress, tile: None };
     let began = Instant::now();
     // a preview only measures the time
     let mut next = at_most(counts, first(goal, pixels)).filter(|&n| n >= full).unwrap_or(counts[0]);
     loop {
         start(refined.known(), next);
-        refined.pass(world, next, settings.whole(), &never, progress);
+        refined.pass(world, next, settings.whole(), beside);
         let Some(mut mean) = refined.known.take() else { unreachable!("a pass has ended") };
         mean.seconds = began.elapsed().as_secs_f64();
         if let (Goal { error: Some(target), seconds: None }, Some(claim)) = (goal, mean.error) {
@@ -378,15 +409,21 @@ fn add(mean: &mut Film, weights: &mut [f64], pass: &[Pixel], area: Area, own: f6
             weights[index] += own;
             own / weights[index]
         };
-        let a = &mut mean.pixels[index];
+        mean.pixels[index].approach(b, share);
+    }
+}
+
+impl Pixel {
+    /// Moves a mean towards a pixel that has this share in it from now on.
+    fn approach(&mut self, b: &Self, share: f64) {
         for k in 0..3 {
-            let [x, y] = [a.mean[k], b.mean[k]].map(f64::from);
-            let [v, w] = [a.variance[k], b.variance[k]].map(f64::from);
-            a.mean[k] = (x + share * (y - x)) as f32;
-            a.variance[k] = ((1.0 - share).powi(2) * v + share * share * w) as f32;
+            let [x, y] = [self.mean[k], b.mean[k]].map(f64::from);
+            let [v, w] = [self.variance[k], b.variance[k]].map(f64::from);
+            self.mean[k] = (x + share * (y - x)) as f32;
+            self.variance[k] = ((1.0 - share).powi(2) * v + share * share * w) as f32;
         }
-        a.samples = a.samples.saturating_add(b.samples);
-        a.second.add(&b.second, share);
+        self.samples = self.samples.saturating_add(b.samples);
+        self.second.add(&b.second, share);
     }
 }
 

@@ -19,10 +19,24 @@ use crate::scene::area::{self, Area};
 use crate::settings::{Settings, tiles};
 use crate::technique::Technique;
 use rayon::prelude::*;
+use std::fmt::{self, Debug, Formatter};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Greatest number of tiles that are looked at to bound what closed forms leave.
 const BOUNDED: usize = 16;
+
+/// Receives an area, its pixels row by row, and how many samples each has on average.
+pub type Listener<'a> = &'a (dyn Fn(Area, &[Pixel], u32) + Sync);
+
+/// Something that is told of each tile.
+#[derive(Clone, Copy)]
+struct Told<'a>(Listener<'a>);
+
+impl Debug for Told<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str("Told")
+    }
+}
 
 /// A world seen through a camera, with settings whose technique is fixed: for [`Technique::Auto`], a trial has found it. Nothing that a view
 /// returns depends on the number of threads.
@@ -38,6 +52,7 @@ pub struct View<'a> {
     worth: u32,
     trial: Option<AutoTrial>,
     stop: Option<&'a AtomicBool>,
+    told: Option<Told<'a>>,
 }
 
 impl World {
@@ -55,8 +70,9 @@ impl World {
     /// Panics unless [`Settings::check`] allows them.
     pub fn view_through(&self, camera: &Camera, settings: &Settings) -> View<'_> {
         assert_eq!(settings.check(), Ok(()));
+        let worth = settings.spp;
         let view =
-            View { world: self, camera: *camera, settings: *settings, worth: settings.spp, trial: None, stop: None };
+            View { world: self, camera: *camera, settings: *settings, worth, trial: None, stop: None, told: None };
         if settings.technique != Technique::Auto {
             return view;
         }
@@ -79,6 +95,13 @@ impl<'a> View<'a> {
     #[must_use]
     pub const fn stopped_by(self, stop: &'a AtomicBool) -> Self {
         Self { stop: Some(stop), ..self }
+    }
+
+    /// The same, but `listener` receives each tile as soon as its samples are rendered: with [`Sampler::Adaptive`] first with those of the pilot,
+    /// and later with all of them.
+    #[must_use]
+    pub const fn told_to(self, listener: Listener<'a>) -> Self {
+        Self { told: Some(Told(listener)), ..self }
     }
 }
 
@@ -239,6 +262,7 @@ impl View<'_> {
         let (weights, plan) = (counts.weights(), self.plan());
         self.tiles(counts.area, &|renderer, tile| {
             let pixels = counts.rest(renderer, tile, weights.as_ref(), &plan);
+            self.tell(tile, &pixels);
             progress(pixels.len() as u64);
             pixels
         })
@@ -270,14 +294,27 @@ impl View<'_> {
         let SamplePlan { sets, pilot, .. } = self.plan();
         self.tiles(area, &|renderer, area| {
             renderer.begin(area);
-            renderer.parts(area, pilot, 0..sets, None, |_| [0, pilot])
+            let parts = renderer.parts(area, pilot, 0..sets, None, |_| [0, pilot]);
+            if let Some(Told(listener)) = self.told {
+                let pixels: Vec<Pixel> = parts.iter().map(|part| part.pixel(sets)).collect();
+                listener(area, &pixels, 8 * pilot * sets);
+            }
+            parts
         })
+    }
+
+    /// Tells of a tile that has all of its samples.
+    fn tell(&self, tile: Area, pixels: &[Pixel]) {
+        if let Some(Told(listener)) = self.told {
+            listener(tile, pixels, self.settings.spp);
+        }
     }
 
     /// The same number of samples for each pixel.
     fn pixels<V: Sample>(&self, area: Area, progress: &(dyn Fn(u64) + Sync)) -> (Vec<Pixel>, RayCount) {
         self.tiles(area, &|renderer, area| {
             let pixels = renderer.all(area, PixelSum::<V>::default());
+            self.tell(area, &pixels);
             progress(pixels.len() as u64);
             pixels
         })

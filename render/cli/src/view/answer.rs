@@ -1,9 +1,10 @@
 //! What the page may ask: its files, what there is to show, an image, and to change what is rendered.
 
+use super::draft::{Draft, Way};
 use super::http::{Body, Request, Response};
 use super::page;
 use super::server::CountGuard;
-use super::state::{Picture, Shared, State, Way};
+use super::state::{Picture, Shared, State};
 use etendue_render::camera::Orbit;
 use etendue_render::film::Film;
 use etendue_render::scene::CameraSettings;
@@ -121,8 +122,10 @@ fn status(shared: &Shared) -> Response {
     // files may be on a slow disk, for which nobody else has to wait
     let watch = Arc::clone(&shared.lock().watch);
     let changed = watch.changed().map(|path| path.display().to_string());
-    let State { wishes, facts, pictures, message, .. } = &*shared.lock();
     let way = |way: &Way| json!({ "technique": way.technique.name(), "sampler": way.sampler.name() });
+    let draft = |draft: &Draft| json!({ "way": way(&draft.way), "version": draft.version, "coarse": draft.is_coarse });
+    let draft = shared.draft().as_ref().map(draft);
+    let State { wishes, facts, pictures, message, .. } = &*shared.lock();
     let picture = |picture: &Picture| {
         json!({
             "way": way(&picture.way),
@@ -157,6 +160,7 @@ fn status(shared: &Shared) -> Response {
         "crop": wishes.crop,
         "paused": wishes.paused,
         "pictures": pictures.iter().map(picture).collect::<Vec<_>>(),
+        "draft": draft,
         "pass": if of == 0 { 0.0 } else { done as f64 / of as f64 },
         "changed": changed,
         "message": message,
@@ -164,7 +168,7 @@ fn status(shared: &Shared) -> Response {
     Response::new(200, "application/json", object.to_string().into_bytes())
 }
 
-/// The pixels of an image: width, height and version (u32 each, and 0), the radiance of each pixel (three f32), the variance of each (three
+/// The pixels of an image, which are fewer while it is coarse: width, height and version (u32 each, and 0), the radiance of each pixel (three f32), the variance of each (three
 /// f32), and the number of its samples (u32), all little-endian.
 fn image(shared: &Shared, request: &Request) -> Response {
     let asked = |key: &str| {
@@ -179,7 +183,11 @@ fn image(shared: &Shared, request: &Request) -> Response {
         Ok(way) => way,
         Err(what) => return Response::text(400, &what),
     };
-    let found = shared.lock().picture(way).map(|picture| (Arc::clone(&picture.film), picture.version));
+    let draft = shared.draft().as_mut().filter(|draft| draft.way == way).map(Draft::sent);
+    let found = match draft {
+        Some((film, version)) => Some((Arc::new(film), version)),
+        None => shared.lock().picture(way).map(|picture| (Arc::clone(&picture.film), picture.version)),
+    };
     found.map_or_else(|| Response::text(404, "there is no such image"), |(film, version)| sent(shared, &film, version))
 }
 

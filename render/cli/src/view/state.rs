@@ -1,22 +1,16 @@
 //! What the rendering thread and those of the clients share: what the page wishes, and what there is to show.
 
+use super::draft::{Draft, Way};
 use super::watch::Watch;
+use etendue_render::Technique;
 use etendue_render::camera::Orbit;
 use etendue_render::film::Film;
 use etendue_render::film::claim::Claim;
 use etendue_render::scene::CameraSettings;
 use etendue_render::scene::area::Area;
-use etendue_render::{Sampler, Technique};
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
-
-/// How an image is sampled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Way {
-    pub(crate) technique: Technique,
-    pub(crate) sampler: Sampler,
-}
 
 /// What the page asks for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,7 +35,7 @@ pub(crate) struct Picture {
     /// The technique that `auto` stands for, or the same one.
     pub(crate) chosen: Technique,
     pub(crate) film: Arc<Film>,
-    /// Increases with every pass of any image.
+    /// No other image, and none of its drafts, has the same.
     pub(crate) version: u64,
     /// Samples per pixel, the mean over all pixels.
     pub(crate) spp: f64,
@@ -100,6 +94,9 @@ pub(crate) struct Shared {
     /// The pixels of the pass that are done, and all of them.
     pub(crate) done: AtomicU64,
     pub(crate) of: AtomicU64,
+    /// What is shown of an image while it is rendered. Never locked together with the state.
+    draft: Mutex<Option<Draft>>,
+    versions: AtomicU64,
     /// Images that are being sent.
     pub(crate) sending: Arc<AtomicUsize>,
     /// The name of an image to compare with, and its pixels.
@@ -108,8 +105,28 @@ pub(crate) struct Shared {
 
 impl Shared {
     pub(crate) fn new(state: State, reference: Option<(String, Arc<Film>)>) -> Self {
-        let (stop, done, of, sending) = Default::default();
-        Self { state: Mutex::new(state), changed: Condvar::new(), stop, done, of, sending, reference }
+        let (stop, done, of, draft, versions, sending) = Default::default();
+        Self { state: Mutex::new(state), changed: Condvar::new(), stop, done, of, draft, versions, sending, reference }
+    }
+
+    pub(crate) fn draft(&self) -> MutexGuard<'_, Option<Draft>> {
+        self.draft.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// A version of an image that no other one has.
+    pub(crate) fn version(&self) -> u64 {
+        self.versions.fetch_add(1, Ordering::Relaxed) + 1
+    }
+
+    /// Whether there is something to show of an image.
+    pub(crate) fn shows(&self, way: Way) -> bool {
+        self.draft().as_ref().is_some_and(|draft| draft.way == way) || self.lock().picture(way).is_some()
+    }
+
+    /// Forgets all that is shown.
+    pub(crate) fn forget(&self) {
+        *self.draft() = None;
+        self.lock().pictures.clear();
     }
 
     pub(crate) fn lock(&self) -> MutexGuard<'_, State> {
@@ -150,6 +167,7 @@ impl Shared {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use etendue_render::Sampler;
 
     /// Each wish changes what the wishes before it have left, whoever sends them.
     #[test]

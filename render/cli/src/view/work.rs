@@ -1,19 +1,21 @@
 //! Renders what the page wishes, pass by pass, and keeps the files up to date.
 
-use super::state::{Facts, Picture, Shared, State, Way, Wishes};
+use super::draft::{Draft, Way, coarse};
+use super::state::{Facts, Picture, Shared, State, Wishes};
 use super::watch::Watch;
 use crate::image::ImageOptions;
 use crate::interrupt::Interrupt;
 use crate::output::Output;
 use etendue_laboratory::options::say;
 use etendue_render::camera::Orbit;
-use etendue_render::drive::progressive::{Goal, Progress, Refined, Refinement};
+use etendue_render::drive::progressive::{Beside, Goal, Progress, Refined, Refinement};
+use etendue_render::film::Pixel;
 use etendue_render::film::claim::why_unknown;
 use etendue_render::sampler::default_sampler;
 use etendue_render::scene::area::{self, Area};
 use etendue_render::scene::limits::MOST_SAMPLES;
 use etendue_render::scene::{CameraSettings, Scene};
-use etendue_render::{Identity, Settings, World};
+use etendue_render::{Identity, Sensor, Settings, World};
 use rayon::ThreadPool;
 use std::error::Error;
 use std::sync::Arc;
@@ -30,6 +32,9 @@ const MOST_KEPT: u64 = 1 << 30;
 const PASS: [f64; 2] = [0.1, 0.4];
 /// Files are written no more often than that.
 const SAVE: Duration = Duration::from_secs(1);
+/// How long the camera must rest before the image is more than coarse, and at least four times as long as that took: the next turn need not
+/// wait for a pass to begin.
+const REST: Duration = Duration::from_millis(300);
 /// Errors are noted at times that differ by this factor, so that a longer rendering has only a few more of them.
 const APART: f64 = 1.1;
 
@@ -66,6 +71,8 @@ struct Subject {
     camera: CameraSettings,
     depth: f64,
     orbit: Option<Orbit>,
+    /// Seconds that a sample of the last coarse image took.
+    pace: f64,
 }
 
 /// An image that is rendered, or was and is kept.
@@ -87,7 +94,6 @@ pub(crate) struct Worker<'a> {
 
 /// What has been done with the image that is shown.
 struct Done {
-    version: u64,
     /// The version that the files have.
     saved: u64,
     /// When they get the next one.
@@ -111,7 +117,7 @@ impl Worker<'_> {
             copy: self.copy().both(),
             camera: Some((camera.clone(), depth)),
         };
-        Ok(Subject { world, settings, watch, facts, identity, camera, depth, orbit: None })
+        Ok(Subject { world, settings, watch, facts, identity, camera, depth, orbit: None, pace: 0.0 })
     }
 
     /// The files of the next copy.
@@ -133,21 +139,30 @@ impl Worker<'_> {
         subject.share(&mut shared.lock());
         let mut kept: Vec<Kept> = Vec::new();
         let now = Instant::now();
-        let mut done = Done { version: 0, saved: 0, save: now };
+        let mut done = Done { saved: 0, save: now };
         loop {
             let wishes = shared.wishes();
             if wishes.reload {
                 self.reload(&mut subject, &mut kept, shared);
                 continue;
             }
-            if wishes.save {
+            // a copy of an image that is only begun waits for its first pass
+            if wishes.save && (wishes.paused || shared.lock().picture(wishes.way).is_some()) {
                 self.save_copy(wishes.way, &subject, shared);
                 continue;
             }
-            if wishes.orbit != subject.orbit {
+            let (turns, began) = (wishes.orbit != subject.orbit, Instant::now());
+            if turns {
                 subject.turn(wishes.orbit);
                 kept.clear();
-                shared.lock().pictures.clear();
+                shared.forget();
+            }
+            if !shared.shows(wishes.way) && subject.world.check(&subject.by(wishes.way)).is_ok() {
+                self.pool.install(|| subject.show_coarsely(wishes.way, self.image.sensor, shared));
+            }
+            if turns {
+                shared.wait(&wishes, REST.max(4 * began.elapsed()));
+                continue;
             }
             if let Err(what) = subject.choose(wishes.way, &mut kept, shared, self.goal) {
                 let mut state = shared.lock();
@@ -161,13 +176,20 @@ impl Worker<'_> {
             let is_idle = wishes.paused || end.is_some();
             if !is_idle {
                 let passed = self.pool.install(|| current.pass(&subject, wishes.crop, self.goal, shared));
-                let Some(known) = passed else { continue };
-                done.version += 1;
+                let Some(known) = passed else {
+                    // tiles of a pass that is thrown away
+                    if current.refined.known().is_some() {
+                        *shared.draft() = None;
+                    }
+                    continue;
+                };
                 let end = self.end(known, wishes.crop);
-                let picture = current.picture(done.version, end);
+                let picture = current.picture(shared.version(), end);
                 let mut state = shared.lock();
                 state.pictures.retain(|picture| picture.way != wishes.way);
                 state.pictures.extend(picture);
+                drop(state);
+                *shared.draft() = None;
             }
             self.keep(&mut done, wishes.way, &subject, shared, is_idle);
             if is_idle {
@@ -193,7 +215,8 @@ impl Worker<'_> {
                 (state.wishes.crop, state.wishes.orbit) = (None, None);
                 subject.share(&mut state);
                 state.message = None;
-                state.pictures.clear();
+                drop(state);
+                shared.forget();
             }
             Err(error) => {
                 say(format_args!("warning: the scene stays as it was: {error}"));
@@ -280,6 +303,17 @@ impl Subject {
         identity
     }
 
+    /// The settings with this technique and sampler.
+    const fn by(&self, way: Way) -> Settings {
+        Settings { technique: way.technique, sampler: way.sampler, ..self.settings }
+    }
+
+    /// Shows a coarse image, which no wish interrupts.
+    fn show_coarsely(&mut self, way: Way, sensor: Sensor, shared: &Shared) {
+        let film = coarse(&self.world, &self.by(way), sensor, &mut self.pace);
+        *shared.draft() = Some(Draft::new(way, film, self.facts.size, shared.version()));
+    }
+
     /// Turns the camera.
     fn turn(&mut self, orbit: Option<Orbit>) {
         self.orbit = orbit;
@@ -297,7 +331,7 @@ impl Subject {
             kept.push(found);
             return Ok(());
         }
-        let settings = Settings { technique: way.technique, sampler: way.sampler, ..self.settings };
+        let settings = self.by(way);
         self.world.check(&settings)?;
         // the usual sampler has a preview of few samples
         let is_usual = default_sampler(MOST_SAMPLES, settings.sets) == way.sampler;
@@ -342,7 +376,16 @@ impl Kept {
         let progress = |pixels: u64| {
             shared.done.fetch_add(pixels, Ordering::Relaxed);
         };
-        let known = self.refined.pass(&subject.world, spp, area, &shared.stop, &progress)?;
+        if let Some(known) = self.refined.known() {
+            *shared.draft() = Some(Draft::new(self.way, known.film.clone(), subject.facts.size, shared.version()));
+        }
+        let tile = |tile: Area, pixels: &[Pixel]| {
+            if let Some(draft) = &mut *shared.draft() {
+                draft.paste(tile, pixels, || shared.version());
+            }
+        };
+        let beside = Beside { stop: &shared.stop, progress: &progress, tile: Some(&tile) };
+        let known = self.refined.pass(&subject.world, spp, area, beside)?;
         if let Some(claim) = known.error {
             let is_near = |[last, _]: &[f64; 2], before: &[f64; 2]| *last < APART * before[0];
             if let [.., before, last] = &self.history[..]

@@ -181,6 +181,22 @@ fn a_full_standard_error_loses_no_image() {
 #[test]
 fn files_that_are_no_images_or_folders_are_named() {
     let folder = Folder::new();
+    folder.write("room.pbrt", scene(""));
+    folder.write("room.obj", "v 0 0 0");
+    for (name, what) in [
+        ("picture.png", "; -o writes an image: etendue render SCENE -o picture.exr"),
+        ("room", "; did you mean room.pbrt?"),
+        ("./rom.pbrt", "; did you mean ./room.pbrt?"),
+        (
+            "room.obj",
+            "room.obj:1: unknown directive v; a file whose name does not end in .gltf or .glb is read as one of pbrt",
+        ),
+    ] {
+        let error = folder.fail(&["render", name]);
+        assert!(error.contains(what), "{name}: {error}");
+    }
+    assert!(!folder.fail(&["render", "nothing.pbrt"]).contains("built-in"));
+    assert!(folder.fail(&["compare", "a.png", "b.exr"]).contains("a.png: EXR files are compared, such as a.exr"));
     folder.write("file.exr", "");
     let error = folder.fail(&["compare", "file.exr", "file.exr"]);
     assert!(error.contains("file.exr: not a valid EXR image: it is cut off"), "{error}");

@@ -177,6 +177,11 @@ fn a_wish_ends_the_pass() {
     assert_eq!(spp(&other, "area", "adaptive"), 2.0);
     // to pause is no reason to lose one
     viewer.wish("{\"technique\":\"area\",\"sampler\":\"adaptive\"}");
+    // its tiles are shown while it is rendered: of the first pass, or of the second one
+    viewer.until("some tiles are those of the second pass", |_| {
+        let (_, samples) = viewer.image("area", "adaptive");
+        samples.contains(&2) && samples.contains(&8)
+    });
     viewer.until("the second pass renders", |status| {
         assert_eq!(spp(status, "area", "adaptive"), 2.0);
         status["way"]["technique"] == "area" && in_second(status) && status["pass"].as_f64() > Some(0.1)
@@ -239,8 +244,8 @@ fn nothing_is_written_but_a_copy_that_is_asked_for_and_a_turned_camera_starts_ag
     let differ = turned.iter().zip(&still).filter(|(a, b)| (*a - *b).abs() > 0.1 * (*a + *b)).count();
     assert!(differ > turned.len() / 8, "{differ} of {} values", turned.len());
     assert_eq!((folder.names(), viewer.status()["copy"].as_str()), (vec![], Some("quads-view.exr and quads-view.png")));
-    viewer.wish("{\"paused\":true}");
-    viewer.wish("{\"save\":true}");
+    // a copy that is asked for while the image is coarse is one of its first pass
+    viewer.wish("{\"orbit\":[0.4,0.1,1.0],\"save\":true}");
     let saved = viewer.until("it is written", |status| !status["message"].is_null());
     assert_eq!(saved["message"], "Wrote quads-view.exr and quads-view.png");
     assert_eq!(saved["copy"], "quads-view-2.exr and quads-view-2.png");
@@ -254,6 +259,39 @@ fn nothing_is_written_but_a_copy_that_is_asked_for_and_a_turned_camera_starts_ag
     let mut error = String::new();
     viewer.child.stderr.take().unwrap().read_to_string(&mut error).unwrap();
     assert_eq!((viewer.child.wait().unwrap().code(), &*error), (Some(130), "interrupted: nothing was written\n"));
+}
+
+/// A camera that turns is followed by images of few pixels, also while no samples are taken; what the image is then begins tile by tile.
+#[test]
+fn a_turned_camera_is_shown_coarsely_first() {
+    let folder = Folder::new();
+    let more = ["--size", "64x48", "--threads", "1", "--technique", "area", "--sampler", "sobol"];
+    let viewer = Viewer::with(&folder, &[&["view", "quads"], &more[..]].concat());
+    let rests = |status: &Value| spp(status, "area", "sobol") > 64.0 && status["draft"].is_null();
+    let pause = |flag: bool| viewer.wish(&format!("{{\"paused\":{flag}}}")).code;
+    viewer.until("there is an image", |status| spp(status, "area", "sobol") > 64.0);
+    pause(true);
+    viewer.until("it rests", rests);
+    let (still, _) = viewer.image("area", "sobol");
+    assert_eq!(viewer.wish("{\"orbit\":[0.8,0.1,1.0]}").code, 200);
+    let turned = viewer.until("it turns", |status| status["draft"]["coarse"] == true);
+    assert_eq!(turned["pictures"], json!([]));
+    let (coarse, samples) = viewer.image("area", "sobol");
+    assert!(samples.iter().all(|&n| n == 0));
+    assert_eq!(coarse.len(), 3 * 16 * 12);
+    pause(false);
+    viewer.until("there is an image", |status| spp(status, "area", "sobol") > 64.0);
+    pause(true);
+    viewer.until("it rests", rests);
+    let (fine, samples) = viewer.image("area", "sobol");
+    assert!(samples.iter().all(|&n| n > 0));
+    // the coarse image was one through the turned camera
+    let block = |image: &[f32], i: usize| -> f32 {
+        let [x, y, channel] = [i / 3 % 16, i / 48, i % 3];
+        (0..16).map(|k| image[3 * (64 * (4 * y + k / 4) + 4 * x + k % 4) + channel]).sum::<f32>() / 16.0
+    };
+    let gap = |other: &[f32]| -> f32 { (0..coarse.len()).map(|i| (coarse[i] - block(other, i)).abs()).sum() };
+    assert!(1.5 * gap(&fine) < gap(&still), "{} from the turned image, {} from the still one", gap(&fine), gap(&still));
 }
 
 #[test]

@@ -76,15 +76,18 @@ impl Summary {
         let baseline = baseline.and_then(|b| Some(named(&(b, b.reaches[error].as_ref()?))));
         shown.extend(baseline.filter(|baseline| !shown.contains(baseline)));
         let is_tied = tied > 1;
-        let mut text =
-            format!("to reach {}, {}", percent(ERRORS[error]), if is_tied { "there is no best: " } else { "" });
+        let mut text = format!(
+            "to reach {}, {}",
+            percent(ERRORS[error]),
+            if is_tied { "no method is surely the fastest: " } else { "" }
+        );
         for (i, (name, time)) in shown.iter().enumerate() {
             text += &match i {
                 0 => format!("{name} takes {time}"),
                 _ => format!(", {name} {time}"),
             };
             if others > 0 && i + 1 == MOST_TIED {
-                text += &format!(", {others} more as long");
+                text += &format!(", and {others} more about as long");
             }
         }
         Some(text)
@@ -95,7 +98,7 @@ impl Summary {
 #[must_use]
 pub fn convention() -> String {
     format!(
-        "There is no best where the interval of another method begins below the end of the shortest. An interval that is not known, because there \
+        "No method is surely the fastest where the interval of another method begins below the end of the shortest. An interval that is not known, because there \
          is one image, counts as a factor of {UNKNOWN} either way."
     )
 }

@@ -1,7 +1,8 @@
 //! The built-in scenes.
 
-use crate::nearest::did_you_mean;
-use std::path::Path;
+use crate::nearest::{did_you_mean, nearest};
+use std::fs;
+use std::path::{Path, PathBuf};
 
 macro_rules! scenes {
     ($count:literal: $($name:literal $about:literal)*) => {
@@ -53,10 +54,30 @@ pub(super) fn text_of(name: &Path) -> Option<(&'static str, &'static str)> {
     BUILTIN.into_iter().find(|(known, _)| name.as_os_str() == *known)
 }
 
-/// What to say where a file is missing, whose name may be that of a built-in scene, misspelt.
+/// What to say where a file is missing: its name may be that of a picture to be written, of another file in its folder, or of a built-in
+/// scene, misspelt.
 pub(crate) fn known_scenes(name: &str) -> String {
+    let path = Path::new(name);
+    let extension = |path: &Path| path.extension().map(|text| text.to_string_lossy().to_lowercase());
+    let is_of = |path: &Path, known: &[&str]| extension(path).is_some_and(|text| known.contains(&&*text));
+    if is_of(path, &["png", "exr", "jpg", "jpeg", "hdr"]) {
+        return format!("; -o writes an image: etendue render SCENE -o {}", path.with_extension("exr").display());
+    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let beside = fs::read_dir(folder.unwrap_or(Path::new("."))).into_iter().flatten().flatten();
+    let scenes =
+        beside.map(|entry| PathBuf::from(entry.file_name())).filter(|path| is_of(path, &["pbrt", "gltf", "glb"]));
+    let scenes: Vec<String> = scenes.map(|path| path.display().to_string()).collect();
+    let own = path.file_name().unwrap_or_default().to_string_lossy();
+    let same = scenes.iter().find(|scene| Path::new(scene).file_stem() == path.file_name()).map(String::as_str);
+    if let Some(near) = same.or_else(|| nearest(&own, scenes.iter().map(String::as_str))) {
+        return format!("; did you mean {}?", path.with_file_name(near).display());
+    }
     // "quads.pbrt" is an extension away
     let near = did_you_mean(name.strip_suffix(".pbrt").unwrap_or(name), DESCRIBED.map(|(name, _)| name));
+    if near.is_empty() && extension(path).is_some() {
+        return String::new();
+    }
     let known = if near.is_empty() { "; built-in scenes" } else { " Built-in scenes" };
     format!("{near}{known}: {}", DESCRIBED.map(|(name, _)| name).join(", "))
 }

@@ -2,8 +2,10 @@
 
 use super::*;
 use crate::scene::{CameraSettings, Emission, Geometry, Material, Parallelogram, Scene, Screen, Shape};
+use std::sync::Mutex;
 
 static NEVER: AtomicBool = AtomicBool::new(false);
+const NOTHING: Beside<'_> = Beside { stop: &NEVER, progress: &|_| (), tile: None };
 
 #[test]
 fn passes_are_averaged_by_their_weights() {
@@ -54,20 +56,20 @@ fn a_part_takes_passes_of_its_own() {
         let plan = Refinement { settings, sampler: Some(sampler), goal: Goal::default() };
         let mut refined = Refined::new(&world, &plan).unwrap();
         assert_eq!(refined.lasting(100.0, settings.whole()), refined.counts[0]);
-        let first = refined.pass(&world, 16, settings.whole(), &NEVER, &|_| ()).unwrap().clone();
+        let first = refined.pass(&world, 16, settings.whole(), NOTHING).unwrap().clone();
         assert_eq!(first.film, world.render(&settings, &|_| ()).0);
         let area = [16, 0, 40, 16];
         // a pass that is stopped leaves no trace
-        assert_eq!(refined.pass(&world, 32, area, &AtomicBool::new(true), &|_| ()), None);
+        assert_eq!(refined.pass(&world, 32, area, Beside { stop: &AtomicBool::new(true), ..NOTHING }), None);
         assert_eq!(refined.known(), Some(&first));
-        let second = refined.pass(&world, 32, area, &NEVER, &|_| ()).unwrap().clone();
+        let second = refined.pass(&world, 32, area, NOTHING).unwrap().clone();
         let inside = |i: usize| i % 40 >= 16 && i / 40 < 16;
         for (i, (a, b)) in first.film.pixels.iter().zip(&second.film.pixels).enumerate() {
             assert_eq!(a == b, !inside(i), "pixel {i}");
         }
         assert!(second.error.unwrap().total() < first.error.unwrap().total(), "{sampler:?}");
         // as the whole would have it, with a weight of its own in each pixel
-        let third = refined.pass(&world, 16, settings.whole(), &NEVER, &|_| ()).unwrap().clone();
+        let third = refined.pass(&world, 16, settings.whole(), NOTHING).unwrap().clone();
         assert_eq!(third.spp, 32);
         assert!(third.film.pixels.iter().zip(&second.film.pixels).all(|(a, b)| a.samples > b.samples));
         // a second for the last pass, which had 16 samples per pixel; a fifth of the pixels takes a fifth of it
@@ -80,6 +82,40 @@ fn a_part_takes_passes_of_its_own() {
     }
 }
 
+/// While a pass is rendered, its tiles are told as the image will have them; with `adaptive` first with the samples of the pilot.
+#[test]
+fn tiles_are_told_while_a_pass_is_rendered() {
+    let world = lit_floor();
+    for sampler in [Sampler::Adaptive, Sampler::Sobol] {
+        let technique = crate::Technique::SolidAngle;
+        let settings = Settings { width: 40, height: 32, spp: 16, technique, sampler, seed: 3, ..Settings::DEFAULT };
+        let plan = Refinement { settings, sampler: Some(sampler), goal: Goal::default() };
+        let mut refined = Refined::new(&world, &plan).unwrap();
+        for (pass, area) in
+            [settings.whole(), settings.whole(), [16, 0, 40, 16], settings.whole()].into_iter().enumerate()
+        {
+            let before = refined.known().map(|known| known.film.clone());
+            let told = Mutex::new(Vec::new());
+            let tile = |area: Area, pixels: &[Pixel]| told.lock().unwrap().push((area, pixels.to_vec()));
+            let known = refined.pass(&world, 16, area, Beside { tile: Some(&tile), ..NOTHING }).unwrap();
+            let told = told.into_inner().unwrap();
+            let tiles = crate::settings::tiles(area).count();
+            let early = if sampler == Sampler::Adaptive { tiles } else { 0 };
+            assert_eq!(told.len(), early + tiles, "{sampler:?}, pass {pass}");
+            let (first, last) = told.split_at(early);
+            let mut film = before.unwrap_or_else(|| Film { pixels: vec![Pixel::default(); 40 * 32], ..known.film });
+            for (tile, pixels) in first {
+                let own = area::pixels(*tile).map(|[x, y]| &film.pixels[(y * 40 + x) as usize]);
+                assert!(pixels.iter().zip(own).all(|(a, b)| a.samples == b.samples + 8), "{tile:?}");
+            }
+            for (tile, pixels) in last {
+                area::paste(&mut film.pixels, settings.whole(), *tile, pixels.iter().copied());
+            }
+            assert!(film == known.film, "{sampler:?}, pass {pass}");
+        }
+    }
+}
+
 /// A preview shows the image early, and is no part of it later.
 #[test]
 fn a_preview_is_followed_by_passes_of_the_usual_sampler() {
@@ -89,9 +125,9 @@ fn a_preview_is_followed_by_passes_of_the_usual_sampler() {
     let plan = Refinement { settings, sampler: None, goal: Goal::default() };
     let mut refined = Refined::new(&world, &plan).unwrap();
     assert_eq!(refined.lasting(1e9, settings.whole()), 2);
-    assert_eq!(refined.pass(&world, 2, settings.whole(), &NEVER, &|_| ()).unwrap().passes[0].sampler, Sampler::Sobol);
+    assert_eq!(refined.pass(&world, 2, settings.whole(), NOTHING).unwrap().passes[0].sampler, Sampler::Sobol);
     assert_eq!([1e-9, 1e9].map(|seconds| refined.lasting(seconds, settings.whole())), [8, 16]);
-    let known = refined.pass(&world, 16, settings.whole(), &NEVER, &|_| ()).unwrap().clone();
+    let known = refined.pass(&world, 16, settings.whole(), NOTHING).unwrap().clone();
     assert_eq!((known.spp, known.passes.len(), known.passes[0].sampler), (16, 1, Sampler::Adaptive));
     let alone = Settings { seed: seed(3, 1), ..settings };
     assert_eq!(known.film, world.render(&alone, &|_| ()).0);
