@@ -214,6 +214,53 @@ fn edges_beside_the_point_belong_to_their_rectangle() {
     }
 }
 
+/// Slivers of any width, among them one found by fuzzing: a sampler returns the pdf of its directions, and has samples all along a sliver, or none.
+#[test]
+fn slivers_have_one_pdf() {
+    fn check<R: Real<Scalar = R>>() {
+        let one_pdf = |sampler: &dyn LightSampler<R>, u: Vec2<R>, what: &str| {
+            let s = sampler.sample(u);
+            let (pdf, again) = (s.pdf.lane_f64(0), sampler.pdf(s.direction).lane_f64(0));
+            assert!(pdf.is_finite() && pdf.to_bits() == again.to_bits(), "{what}: {s:?}, {again:e}");
+            s
+        };
+        let p = Vec3::<R>::default();
+        let edges = [[-1e-30, 8.978_338e-39, -7.627_898e-27], [0.020_098_03; 3]].map(Vec3::lit);
+        let found = Parallelogram::new(Vec3::lit([1.000_000_1, -0.017_785_061, -1.0]), edges[0], edges[1]);
+        let mut random = Random::new(61);
+        for i in 0..40_000 {
+            let width = 10.0_f64.powi(-(i % 40));
+            let [origin, across, along] = [(); 3].map(|()| random.direction());
+            let [n, a, b] = [origin, across.map(|x| x * width), along].map(Vec3::<R>::lit);
+            let (a, b) = if random.word().is_multiple_of(2) { (a, b) } else { (b, a) };
+            let light = if i == 0 { found } else { Parallelogram::new(n, a, b) };
+            let Parallelogram { corner, edge_s, edge_t } = light;
+            let triangle = Triangle { v0: corner, e1: edge_s, e2: edge_t };
+            let u = Vec2::new(random.unit(), random.unit()).map(|x| R::lit(f64::from(x)));
+            let what = format!("{light:?} {u:?}");
+            one_pdf(&light.by_area(p), u, &what);
+            one_pdf(&triangle.by_area(p), u, &what);
+            one_pdf(&light.by_projected_solid_angle(p, n), u, &what);
+            one_pdf(&triangle.by_projected_solid_angle(p, n), u, &what);
+            let samplers: [&dyn LightSampler<R>; 2] = [&light.by_solid_angle(p), &triangle.by_solid_angle(p)];
+            for sampler in samplers {
+                let s = one_pdf(sampler, u, &what);
+                // the edges, and where the long one begins, are clearly apart
+                let clear = length(cross(across, along)) > 0.1 && length(cross(origin, along)) > 0.1;
+                let clear = i > 0 && clear && dot(origin, cross(across, along)).abs() > 0.1;
+                assert!(!clear || width < 1e-17 || s.pdf.lane_f64(0) > 0.0, "{what}: {s:?}");
+                if clear && s.pdf.lane_f64(0) > 0.0 {
+                    let [start, end] =
+                        [0.0, 0.999].map(|x| sampler.sample(Vec2::new(R::lit(0.5), R::lit(x))).direction);
+                    assert!((end - start).length().lane_f64(0) > 0.01, "{what}: {start:?} to {end:?}");
+                }
+            }
+        }
+    }
+    check::<f32>();
+    check::<f64>();
+}
+
 /// The surface coordinates and the normal of a sample are those of the point at its distance in its direction, in double precision.
 #[test]
 fn samples_know_their_place() {

@@ -7,6 +7,9 @@ use crate::math::rsqrt;
 use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
 
+/// Square of the length below which the cross product of two vertices counts as 0.
+const LEAST_SQUARED: f64 = 1e-37;
+
 /// The vertices as the point sees them.
 struct Corners<R> {
     v: [Vec3<R>; 3],
@@ -66,7 +69,7 @@ impl<R: Real> Side<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let (&Corners { d01, .. }, [i0, i1, _], [l0, l1, _]) = (corners, corners.inverse, corners.length);
         let squared = n01.length_squared();
-        let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-37)));
+        let inverse = rsqrt(squared).keep(squared.gt(R::lit(LEAST_SQUARED)));
         let sin = squared * inverse * i0 * i1;
         let inv_sin = inverse * l0 * l1;
         // the smaller one of 1 − d₀₁ and 1 + d₀₁ comes from the sine
@@ -161,8 +164,8 @@ struct Half<R> {
 
 impl<R: Real> Half<R> {
     #[inline(always)]
-    fn new(g0: R, total: R, apart: R::Mask) -> Self {
-        let solid_angle = (R::lit(2.0) * g0.atan2(total)).keep(apart & g0.gt(R::lit(0.0)));
+    fn new(g0: R, total: R, some: R::Mask) -> Self {
+        let solid_angle = (R::lit(2.0) * g0.atan2(total)).keep(some & g0.gt(R::lit(0.0)));
         let inv_g0 = R::lit(1.0) / R::blend(g0.gt(R::lit(1e-37)), g0, R::lit(1.0));
         let squared = g0.mul_add(g0, total * total).greater(R::lit(1e-36));
         let over = rsqrt(squared);
@@ -189,6 +192,15 @@ fn cot_alpha<R: Real>(corners: &Corners<R>, planes: &Planes<R>) -> R {
     let opposite = planes.volume.abs() * corners.length[0];
     let angle = opposite.gt(R::lit(1e-37));
     (planes.n01.dot(planes.n02) / R::blend(angle, opposite, R::lit(1.0))).keep(angle)
+}
+
+/// True where the plane through each side is known: the square of a shorter normal would underflow. A side on whose line the point lies, between
+/// its ends, has a plane that is short as well; only the map, which begins at v0 v1, cannot do without it.
+#[inline(always)]
+fn measurable<R: Real>(corners: &Corners<R>, side: &Side<R>, planes: &Planes<R>) -> R::Mask {
+    let zero = R::lit(0.0);
+    let known = |n: Vec3<R>, d: R| n.length_squared().gt(R::lit(LEAST_SQUARED)) | d.lt(zero);
+    side.inverse.gt(zero) & known(planes.n02, corners.d02) & known(planes.n12, corners.d12)
 }
 
 /// How far a direction may be beyond each plane. The map starts from the great circle through v0 and v1; that one, and any through nearly
@@ -228,7 +240,7 @@ impl<R: Real> SphericalTriangle<R> {
         }
         let [i0, i1, i2] = corners.inverse;
         let g0 = planes.volume.abs() * i0 * i1 * i2;
-        let half = Half::new(g0, opposite.total, corners.apart());
+        let half = Half::new(g0, opposite.total, corners.apart() & measurable(&corners, &side, &planes));
         let behind = planes.volume.lt(R::lit(0.0));
         let inwards = |n: Vec3<R>| Vec3::blend(behind, -n, n);
         let [l0, l1, l2] = corners.length;
