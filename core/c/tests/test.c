@@ -1196,11 +1196,11 @@ int main(int argc, char **argv) {
         test_tree(1);
         test_tree(0);
         CHECK(etendue_light_tree_nodes(0) < 2);
-        current = "lights";
-        test_lights();
         current = "image_environment";
         test_image(ETENDUE_ENVIRONMENT_MAP_EQUAL_AREA);
         test_image(ETENDUE_ENVIRONMENT_MAP_EQUIRECTANGULAR);
+        current = "lights";
+        test_lights();
     }
     const uint32_t level = etendue_level();
     CHECK(level == 0 || level == 3 || level == 4);
