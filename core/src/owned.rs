@@ -95,6 +95,14 @@ impl OwnedEnvironment {
         ImageEnvironment::build(weights, width, map, &mut table)?;
         Ok(Self { table, width, map })
     }
+    /// Copies a table that [`ImageEnvironment::build`] has left.
+    ///
+    /// # Errors
+    /// If its length is not that of a table with so many columns.
+    pub fn from_table(table: &[f32], width: usize, map: EnvironmentMap) -> Result<Self, TableError> {
+        ImageEnvironment::from_buffer(table, width, map)?;
+        Ok(Self { table: table.to_vec(), width, map })
+    }
     /// Lends the environment.
     #[must_use]
     pub fn get(&self) -> ImageEnvironment<'_> {

@@ -13,7 +13,7 @@
 // etendue_triangle_by_solid_angle_sample.
 //
 // Rules for all functions:
-// - Nothing is allocated, nothing is kept between calls, and all functions may be called from any thread.
+// - Nothing is allocated (but sets of lights, by malloc), nothing is kept between calls, and all functions may be called from any thread.
 // - Finite input, with finite vectors between points and unit normals, gives finite output. Degenerate input (a light without extent, a
 //   point exactly in the plane of a flat light) gives pdf 0. A point that was computed on a light may be in front of it through rounding:
 //   see etendue_on_surface.
@@ -44,6 +44,53 @@ typedef enum {
   ETENDUE_ENVIRONMENT_MAP_EQUIRECTANGULAR = 1,
 } EtendueEnvironmentMap;
 
+// The kind of a light of a set: the name of its struct without Etendue.
+typedef enum {
+  // A sphere that emits outwards. A radius <= 0 gives pdf 0; from inside, every direction hits it and it does not emit.
+  ETENDUE_LIGHT_KIND_SPHERE,
+  // A triangle that emits from the side on which its vertices run counterclockwise. Without area, and from a point in its plane,
+  // the pdf is 0. uv: the barycentric coordinates of the second and the third vertex.
+  ETENDUE_LIGHT_KIND_TRIANGLE,
+  // A parallelogram, of a corner and two edges from there, that emits from the side of the first edge x the second one. Without
+  // area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges, in [0, 1].
+  ETENDUE_LIGHT_KIND_PARALLELOGRAM,
+  // A rectangle, of a corner and two perpendicular edges from there, that emits from the side of the first edge x the second one.
+  // Its strata follow the edges. Without area, and from a point in its plane, the pdf is 0. uv: (s, t), the parts of the edges,
+  // in [0, 1].
+  ETENDUE_LIGHT_KIND_RECTANGLE,
+  // A disk that emits from the side of its normal. A radius <= 0, and a point in its plane, give pdf 0. uv: (1 + q)/2 for the
+  // position q on the unit disk.
+  ETENDUE_LIGHT_KIND_DISK,
+  // A flat convex polygon of 3 to 8 corners that emits from the side on which they run counterclockwise. Without area, and from a
+  // point in its plane, the pdf is 0. uv: the parts of the edges from the first corner to the second and to the last, clamped to
+  // [0, 1].
+  ETENDUE_LIGHT_KIND_POLYGON,
+  // A bilinear patch, of a corner and the vectors from there to the others, that emits from the side of ds x dt. Without area the
+  // pdf is 0. uv: (s, t), in [0, 1].
+  ETENDUE_LIGHT_KIND_BILINEAR_PATCH,
+  // A line: a cylinder so thin that only its width times its radiance counts, which emits in all directions. Samplers use the
+  // first random number alone. The pdf is in the measure sin(gamma) ds/r^2 (gamma from the line, s along it), so that the estimator is
+  // f * L * width * cos(theta) * weight. No direction hits a line. A length of 0, and a point on the line, give pdf 0. uv: the part of
+  // the length, and 0.
+  ETENDUE_LIGHT_KIND_LINE,
+  // A sun: the same radiance from all directions within an angle sigma of one direction, at every point. The distance is the
+  // largest number of single precision.
+  ETENDUE_LIGHT_KIND_SUN,
+  // A point light, that emits the same intensity I in all directions. The estimator is f * I * cos(theta) * weight. No direction
+  // hits it: its weight in multiple importance sampling is 1.
+  ETENDUE_LIGHT_KIND_POINT_LIGHT,
+  // A spot light: a point light that emits into a cone, with the intensity I on its axis. The estimator is f * I * cos(theta) * weight.
+  // No direction hits it: its weight in multiple importance sampling is 1.
+  ETENDUE_LIGHT_KIND_SPOT_LIGHT,
+  // A directional light, that reaches every point from one direction with the irradiance E on a surface that faces it. The
+  // estimator is f * E * cos(theta) * weight. No direction hits it: its weight in multiple importance sampling is 1.
+  ETENDUE_LIGHT_KIND_DIRECTIONAL_LIGHT,
+  // A sky of the same radiance in all directions, which has no struct.
+  ETENDUE_LIGHT_KIND_CONSTANT_ENVIRONMENT,
+  // A sky as an image tells it; the set copies its table.
+  ETENDUE_LIGHT_KIND_IMAGE_ENVIRONMENT,
+} EtendueLightKind;
+
 // The part of the unit square of surface coordinates that a light covers.
 typedef enum {
   // All of it: rectangles, parallelograms and spheres.
@@ -53,6 +100,16 @@ typedef enum {
   // The inscribed disk: disks.
   ETENDUE_PICTURE_REGION_DISK = 2,
 } EtenduePictureRegion;
+
+// From which sides a receiver gathers light.
+typedef enum {
+  // From above a surface, on the side of its normal.
+  ETENDUE_SIDE_SURFACE = 0,
+  // From both sides of a surface, such as a leaf or glass.
+  ETENDUE_SIDE_BOTH = 1,
+  // From all around: a point of fog, or of hair.
+  ETENDUE_SIDE_NONE = 2,
+} EtendueSide;
 
 // What a function says that could not do its work.
 typedef enum {
@@ -193,6 +250,9 @@ typedef enum {
   ETENDUE_WARP_PATCH_SURFACE,
 } EtendueWarp;
 
+// A set of lights on the heap. Any number of threads may use it.
+typedef struct EtendueLights EtendueLights;
+
 // Light from all around as an image tells it, in memory of the caller: directions in proportion to the image, the same for all shading
 // points. The position in the image is `uv` of a sample.
 typedef struct {
@@ -205,6 +265,83 @@ typedef struct {
   // One of EtendueEnvironmentMap.
   uint32_t map;
 } EtendueImageEnvironment;
+
+// A light of a set.
+typedef struct {
+  // The struct of its kind, or so many of them in a row as it has parts; NULL for a sky without a struct, and for no parts.
+  const void *light;
+  // Number of its parts: 1, or for one light of several, such as the triangles of a mesh, how many there are.
+  size_t parts;
+  // One of EtendueLightKind.
+  uint32_t kind;
+  // 1 if it emits from both sides (a sphere, inwards too), 0 if from that of its normal.
+  uint32_t two_sided;
+  // A vector to the side from which a flat light emits, whatever the order of its vertices is; 0 for that of its own normal.
+  float facing[3];
+  // Its radiance in any unit that all share; of point and spot lights their intensity, of directional lights the irradiance on a surface that faces
+  // them, of lines the radiance times the width, of images the mean over all directions. One that is not positive makes the light dark.
+  float radiance;
+} EtendueEmitter;
+
+// A light of a set, or a part of it.
+typedef struct {
+  // The index of the light among those that the set was given.
+  uint32_t light;
+  // The index of the part in it; 0 of lights of one part.
+  uint32_t part;
+} EtendueWhich;
+
+// What is lit.
+typedef struct {
+  // The point, in the coordinates of the scene.
+  float p[3];
+  // The unit normal of the surface there, if it gathers light from one side.
+  float n[3];
+  // One of EtendueSide.
+  uint32_t side;
+  // The light, or its part, on which the point is, which is passed over: `which` of the sample or hit that it came from. NULL if on none. Lights on whose
+  // surface the point is, to within the rounding of its own computation, are passed over anyway.
+  const EtendueWhich *on;
+} EtendueReceiver;
+
+// A set prepared for a receiver: memory of the caller, whose inside does not concern it, for one thread. It remembers the light that was sampled last, so that
+// its pdf needs no second preparation.
+typedef struct {
+  uint64_t data[269];
+} EtendueLightsAt;
+
+// A sample of a set of lights.
+//
+// The estimator of reflected radiance is f L cos(theta) weight, with the radiance L of the light `which`, once a shadow ray along `direction` has got
+// as far as `reach`.
+typedef struct {
+  // The light.
+  EtendueWhich which;
+  // Unit direction from the receiver to it.
+  float direction[3];
+  // Distance along it, in the unit of the coordinates; FLT_MAX of lights at infinity.
+  float distance;
+  // The point of the light.
+  float point[3];
+  // How far that point is at most from the surface of the light, or from the plane of a flat one, through rounding.
+  float bound;
+  // Unit normal there, on the side that emits; of lights without a surface, the direction back.
+  float normal[3];
+  // Probability of the light times the density of the direction, per steradian; of point, spot and directional lights the probability alone;
+  // 0 where there is no sample.
+  float pdf;
+  // The probability of the light, which is a factor of `pdf`.
+  float pmf;
+  // What the radiance is to be multiplied by: 1, of a point light 1/distance^2, of a spot light that times its falloff; 0 where the light does not
+  // emit towards the receiver.
+  float factor;
+  // factor/pdf; 0 where there is no sample. Always finite.
+  float weight;
+  // How far a shadow ray along `direction` must get: the distance, less what rounding may take from it.
+  float reach;
+  // 1 where no other technique can hit the light, so that its weight in multiple importance sampling is 1, else 0.
+  uint8_t delta;
+} EtendueLightsSample;
 
 // A picture for lights, in memory of the caller: texels are drawn in proportion to their radiance times their area, solid angle or projected
 // solid angle as seen from a shading point. Columns are u, rows v, of the surface coordinates of the light; of a sphere, columns are heights
@@ -838,6 +975,34 @@ EtendueStatus etendue_image_environment_build(const float *weights,
                                               uint32_t map,
                                               float *table,
                                               EtendueImageEnvironment *environment);
+
+// Makes a set of lights on the heap, of copies of `emitters`, and writes where it is. etendue_lights_free frees it.
+//
+// Returns ETENDUE_STATUS_VALUE for a `kind` or a `two_sided` that is none, for a sky of other than one part, for an image that cannot be looked into, and if
+// this library was built without sets; ETENDUE_STATUS_COUNT for more than 2^27 parts. The program ends where there is no memory.
+EtendueStatus etendue_lights_create(size_t count,
+                                    const EtendueEmitter *emitters,
+                                    EtendueLights **lights);
+
+// Frees a set; NULL is none.
+void etendue_lights_free(EtendueLights *lights);
+
+// Prepares a set for a receiver; the set must live as long as `at` is used. Returns ETENDUE_STATUS_VALUE for a `side` that is none.
+EtendueStatus etendue_lights_at(const EtendueLights *lights,
+                                const EtendueReceiver *receiver,
+                                EtendueLightsAt *at);
+
+// Chooses a light and samples it by three numbers: the first one chooses the light, the others a direction to it. Returns ETENDUE_STATUS_VALUE for a number
+// that is not in [0, 1).
+EtendueStatus etendue_lights_sample(EtendueLightsAt *at,
+                                    const float *u,
+                                    EtendueLightsSample *out);
+
+// The pdf with which etendue_lights_sample draws a unit direction `w` as one of the light `which`: 0 where the light is not there, where no other technique
+// can hit it, of the light that the receiver is on, and where the function cannot work.
+float etendue_lights_pdf(EtendueLightsAt *at,
+                         EtendueWhich which,
+                         const float *w);
 
 // Number of floats in the table of a picture; 0 for a single texel, and for a picture without columns or rows, with more than 2^24 of them,
 // or with 2^31 texels or more.

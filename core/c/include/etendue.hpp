@@ -1,6 +1,6 @@
 // Etendue: light sampling for renderers, in C++17. MIT or Apache-2.0.
 //
-// A wrapper of etendue.h, whose rules hold here too: nothing is allocated or thrown, and no type information is needed at run time.
+// A wrapper of etendue.h, whose rules hold here too: nothing is allocated but by Lights, nothing is thrown, and no type information is needed at run time.
 //
 //     etendue::Triangle lamp({0, 2, 0}, {1, 0, 0}, {0, 0, 1});
 //     auto sampler = lamp.by_solid_angle({0, 0, 0});         // once for a shading point
@@ -13,6 +13,7 @@
 // - Picture::on puts a picture on a light. PortalEnvironment.
 // - Batches: columns of one length, from anything with data() and size(). Every length is checked: a column of another length gives
 //   ETENDUE_STATUS_COUNT. Empty columns stand for results that are not wanted.
+// - Lights: a set of lights of any kind, chosen and sampled by one call.
 // - Warps, sequences and LightTree. Reflection is a warp for which flat lights are prepared by_reflection; ReflectionColumns are many of them.
 // - At the end, functions of the names and arguments of pbrt-v4, for hosts that replace those one by one.
 #ifndef ETENDUE_HPP
@@ -945,6 +946,101 @@ class LightTree {
         if (!fits(p, count) || !fits(n, count) || !fits(out, count)) return ETENDUE_STATUS_COUNT;
         return etendue_light_tree_pmf_batch(&c_, count, Pointers<const float, 3>(p).p, Pointers<const float, 3>(n).p, lights.data(), out.data());
     }
+};
+
+// ---- sets of lights ----
+
+using Which = EtendueWhich;
+using LightsSample = EtendueLightsSample;
+using Side = EtendueSide;
+
+namespace detail {
+constexpr uint32_t kind(const EtendueSphere*) { return ETENDUE_LIGHT_KIND_SPHERE; }
+constexpr uint32_t kind(const EtendueTriangle*) { return ETENDUE_LIGHT_KIND_TRIANGLE; }
+constexpr uint32_t kind(const EtendueParallelogram*) { return ETENDUE_LIGHT_KIND_PARALLELOGRAM; }
+constexpr uint32_t kind(const EtendueRectangle*) { return ETENDUE_LIGHT_KIND_RECTANGLE; }
+constexpr uint32_t kind(const EtendueDisk*) { return ETENDUE_LIGHT_KIND_DISK; }
+constexpr uint32_t kind(const EtenduePolygon*) { return ETENDUE_LIGHT_KIND_POLYGON; }
+constexpr uint32_t kind(const EtendueBilinearPatch*) { return ETENDUE_LIGHT_KIND_BILINEAR_PATCH; }
+constexpr uint32_t kind(const EtendueLine*) { return ETENDUE_LIGHT_KIND_LINE; }
+constexpr uint32_t kind(const EtendueSun*) { return ETENDUE_LIGHT_KIND_SUN; }
+constexpr uint32_t kind(const EtenduePointLight*) { return ETENDUE_LIGHT_KIND_POINT_LIGHT; }
+constexpr uint32_t kind(const EtendueSpotLight*) { return ETENDUE_LIGHT_KIND_SPOT_LIGHT; }
+constexpr uint32_t kind(const EtendueDirectionalLight*) { return ETENDUE_LIGHT_KIND_DIRECTIONAL_LIGHT; }
+} // namespace detail
+
+// A light of a set, with its radiance: see EtendueEmitter. The light must live until the set is built.
+struct Emitter : EtendueEmitter {
+    // A sky of one radiance.
+    explicit Emitter(float radiance_) : EtendueEmitter{nullptr, 1, ETENDUE_LIGHT_KIND_CONSTANT_ENVIRONMENT, 0, {0, 0, 0}, radiance_} {}
+    Emitter(const ImageEnvironment& sky, float radiance_) : EtendueEmitter{&sky.c(), 1, ETENDUE_LIGHT_KIND_IMAGE_ENVIRONMENT, 0, {0, 0, 0}, radiance_} {}
+    template <class L, uint32_t KIND = detail::kind(static_cast<const L*>(nullptr))>
+    Emitter(const L& light_, float radiance_) : EtendueEmitter{&light_, 1, KIND, 0, {0, 0, 0}, radiance_} {}
+    // One light of several parts, such as the triangles of a mesh.
+    template <class L, uint32_t KIND = detail::kind(static_cast<const L*>(nullptr))>
+    Emitter(Span<const L> lights, float radiance_) : EtendueEmitter{lights.data(), lights.size(), KIND, 0, {0, 0, 0}, radiance_} {}
+
+    // The same, which emits from both sides.
+    Emitter both_sides() const {
+        Emitter same = *this;
+        same.two_sided = 1;
+        return same;
+    }
+    // The same, which emits from the side to which the normal points.
+    Emitter towards(Vec3 normal) const {
+        Emitter same = *this;
+        for (int i = 0; i < 3; i++) same.facing[i] = normal[i];
+        return same;
+    }
+};
+static_assert(sizeof(Emitter) == sizeof(EtendueEmitter));
+
+// A set prepared for a receiver, for one thread; the set must live as long.
+class LightsAt {
+    EtendueLightsAt c_;
+    Status status_;
+
+  public:
+    LightsAt(const EtendueLights* lights, const EtendueReceiver& receiver) : status_(etendue_lights_at(lights, &receiver, &c_)) {}
+
+    // A sample by three numbers in [0, 1): the first one chooses the light, the others a direction to it. pdf 0 where there is none.
+    LightsSample sample(float u0, float u1, float u2) {
+        LightsSample out = {};
+        const float u[3] = {u0, u1, u2};
+        if (status_ == ETENDUE_STATUS_OK) etendue_lights_sample(&c_, u, &out);
+        return out;
+    }
+    // The pdf with which a unit direction is drawn as one of that light.
+    float pdf(Which which, Vec3 w) {
+        const float direction[3] = {w.x, w.y, w.z};
+        return status_ == ETENDUE_STATUS_OK ? etendue_lights_pdf(&c_, which, direction) : 0;
+    }
+};
+
+// A set of lights of any kind, on the heap: it owns copies of its lights. Before it is built, its samples have pdf 0.
+class Lights {
+    EtendueLights* c_ = nullptr;
+
+  public:
+    Lights() = default;
+    Lights(Lights&& other) noexcept : c_(std::exchange(other.c_, nullptr)) {}
+    Lights& operator=(Lights&& other) noexcept {
+        std::swap(c_, other.c_);
+        return *this;
+    }
+    ~Lights() { etendue_lights_free(c_); }
+
+    // Builds the set anew; where that fails, it is what it was.
+    Status build(Span<const Emitter> lights) {
+        Lights fresh;
+        const Status status = etendue_lights_create(lights.size(), lights.data(), &fresh.c_);
+        if (status == ETENDUE_STATUS_OK) std::swap(c_, fresh.c_);
+        return status;
+    }
+    // For a point of a surface with the unit normal n, on its side; `on` is the light on which the point is.
+    LightsAt at(Vec3 p, Vec3 n, const Which* on = nullptr) const { return {c_, {{p.x, p.y, p.z}, {n.x, n.y, n.z}, ETENDUE_SIDE_SURFACE, on}}; }
+    // For a point that gathers light from both sides of a surface, or from all around.
+    LightsAt at(Vec3 p, Side side, const Which* on = nullptr) const { return {c_, {{p.x, p.y, p.z}, {0, 0, 0}, uint32_t(side), on}}; }
 };
 
 // The instructions that batches use on this processor: 0, 3 or 4, see etendue_level.

@@ -3,7 +3,9 @@
 use crate::memory::{build_table, refuse_null};
 use crate::status::EtendueStatus;
 use core::mem::{offset_of, size_of};
+use core::slice::from_raw_parts;
 use etendue::light::{EnvironmentMap, ImageEnvironment};
+use etendue::owned::OwnedEnvironment;
 use etendue_batch::memory::ImageMemory;
 
 /// The most columns or rows.
@@ -55,6 +57,16 @@ impl EtendueImageEnvironment {
             EtendueStatus::Ok
         }
     }
+}
+/// A copy of an environment, if the library can look into it.
+pub(crate) unsafe fn owned(environment: &EtendueImageEnvironment) -> Option<OwnedEnvironment> {
+    let &EtendueImageEnvironment { table, width, height, map } = environment;
+    if environment.status() != EtendueStatus::Ok {
+        return None;
+    }
+    // SAFETY: the caller's table has the length for its size
+    let table = unsafe { from_raw_parts(table, etendue_image_environment_table(width, height)) };
+    OwnedEnvironment::from_table(table, width, map_of(map)?).ok()
 }
 const _: () = {
     assert!(size_of::<EtendueImageEnvironment>() == size_of::<ImageMemory<'_>>());

@@ -1,13 +1,16 @@
 //! C interface of [`etendue`]. The header `include/etendue.h` documents it for its users.
 //!
-//! Every function takes plain structs and pointers and checks the pointers for null; nothing is allocated or kept. The functions of
+//! Every function takes plain structs and pointers and checks the pointers for null; but for sets of lights, nothing is allocated or kept. The functions of
 //! batches choose the instructions of the processor at run time, see [`etendue_batch`].
 #![cfg_attr(panic = "abort", no_std)]
 // one rule for all functions: every pointer is null, or points to what the header says
 #![allow(clippy::missing_safety_doc)]
 
+extern crate alloc;
+
 mod environment;
 mod light;
+mod lights;
 mod list;
 mod memory;
 mod picture;
@@ -25,6 +28,7 @@ use etendue_batch::Batch;
 
 pub use environment::*;
 pub use light::*;
+pub use lights::*;
 pub use list::*;
 pub use picture::*;
 pub use portal::*;

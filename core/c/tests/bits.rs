@@ -1,6 +1,8 @@
-//! The functions for lights with images return what the core does, bit by bit.
+//! The functions for lights with images and for sets of lights return what the core does, bit by bit.
 
 use etendue::light::*;
+use etendue::lights::{Emitter, Lights, Receiver, Side, Which};
+use etendue::owned::OwnedEnvironment;
 use etendue::reflection::Reflection;
 use etendue::sequence::{Independent, Sequence};
 use etendue::warp::{UniformSphere, Warp};
@@ -256,4 +258,103 @@ fn portals() {
         assert_eq!((bits(&w), angle.to_bits()), (bits(&three(direction)), solid_angle.to_bits()));
     }
     drop(sums);
+}
+
+#[test]
+fn sets() {
+    const MAP: EnvironmentMap = EnvironmentMap::Equirectangular;
+    let (ball, bulb) =
+        (EtendueSphere { center: [0.3, 2.0, 0.1], radius: 0.5 }, EtenduePointLight { position: [2.0; 3] });
+    let mesh = [0.0, 3.0].map(|x| EtendueTriangle { v0: [x, 2.0, -0.3], e1: [1.2, 0.1, 0.2], e2: [0.1, 0.2, 1.1] });
+    let leaf = EtendueParallelogram { corner: [-2.0, 2.0, -0.3], edge_s: [1.2, 0.1, 0.2], edge_t: [0.1, 0.2, 1.1] };
+    let mut table = vec![0.0; etendue_image_environment_table(5, 3)];
+    let mut sky = EtendueImageEnvironment { table: null(), width: 0, height: 0, map: 0 };
+    // SAFETY: the pointers are to as many numbers as the header says
+    let built =
+        unsafe { etendue_image_environment_build(WEIGHTS.as_ptr(), 5, 3, MAP as u32, table.as_mut_ptr(), &mut sky) };
+    assert_eq!(built, EtendueStatus::Ok);
+    let down = [0.0, -1.0, 0.0];
+    let triangles = mesh.map(|t| Triangle { v0: t.v0.into(), e1: t.e1.into(), e2: t.e2.into() });
+    let leaf_of_core: Emitter<f32> =
+        Parallelogram::new(leaf.corner.into(), leaf.edge_s.into(), leaf.edge_t.into()).into();
+    let core: Vec<(Emitter<f32>, f32)> = vec![
+        (Sphere::new(ball.center.into(), ball.radius).into(), 3.0),
+        (PointLight::new(bulb.position.into()).into(), 5.0),
+        (Emitter::group(triangles).facing(down.into()), 1.0),
+        (leaf_of_core.two_sided(), 2.0),
+        (ConstantEnvironment.into(), 0.1),
+        (OwnedEnvironment::new(&WEIGHTS, 5, MAP).unwrap().into(), 0.2),
+    ];
+    let one = EtendueEmitter {
+        light: null(),
+        parts: 1,
+        kind: EtendueLightKind::ConstantEnvironment as u32,
+        two_sided: 0,
+        facing: [0.0; 3],
+        radiance: 0.1,
+    };
+    let of = |kind: EtendueLightKind, light, radiance| EtendueEmitter { light, kind: kind as u32, radiance, ..one };
+    let raw = [
+        of(EtendueLightKind::Sphere, std::ptr::from_ref(&ball).cast(), 3.0),
+        of(EtendueLightKind::PointLight, std::ptr::from_ref(&bulb).cast(), 5.0),
+        EtendueEmitter { parts: 2, facing: down, ..of(EtendueLightKind::Triangle, mesh.as_ptr().cast(), 1.0) },
+        EtendueEmitter { two_sided: 1, ..of(EtendueLightKind::Parallelogram, std::ptr::from_ref(&leaf).cast(), 2.0) },
+        one,
+        of(EtendueLightKind::ImageEnvironment, std::ptr::from_ref(&sky).cast(), 0.2),
+    ];
+    let core = Lights::new(core).unwrap();
+    let mut same = std::ptr::null_mut();
+    // SAFETY: the pointers are to what the header says
+    assert_eq!(unsafe { etendue_lights_create(raw.len(), raw.as_ptr(), &mut same) }, EtendueStatus::Ok);
+    drop(table);
+    let mut drawn = [0; 6];
+    let on = EtendueWhich { light: 2, part: 1 };
+    for (side, raw_side) in [
+        (Side::Surface(N.into()), EtendueSide::Surface),
+        (Side::Both, EtendueSide::Both),
+        (Side::None, EtendueSide::None),
+    ] {
+        for on in [None, Some(&on)] {
+            let raw = EtendueReceiver { p: P, n: N, side: raw_side as u32, on: on.map_or(null(), std::ptr::from_ref) };
+            let on = on.map(|on| Which { light: on.light, part: on.part });
+            let at = core.at(Receiver { point: P.into(), side, on });
+            let mut prepared = std::mem::MaybeUninit::<EtendueLightsAt>::uninit();
+            let mut found = std::mem::MaybeUninit::<EtendueLightsSample>::uninit();
+            // SAFETY: the pointers are to what the header says, and what is read was written
+            unsafe {
+                assert_eq!(etendue_lights_at(same, &raw, prepared.as_mut_ptr()), EtendueStatus::Ok);
+                for i in 0..COUNT {
+                    let (u, w) = (pair(i), direction(i));
+                    let u = [Independent::new(4).pair(0_u32, i, 0).x, u.x, u.y];
+                    assert_eq!(
+                        etendue_lights_sample(prepared.as_mut_ptr(), u.as_ptr(), found.as_mut_ptr()),
+                        EtendueStatus::Ok
+                    );
+                    let (s, c) = (at.sample(u), found.assume_init());
+                    drawn[s.which.light as usize] += u32::from(s.pdf > 0.0);
+                    let expected = [
+                        &three(s.direction)[..],
+                        &three(s.point),
+                        &three(s.normal),
+                        &[s.distance, s.bound, s.pdf, s.pmf, s.factor, s.weight(), s.reach()],
+                    ];
+                    let returned = [
+                        &c.direction[..],
+                        &c.point,
+                        &c.normal,
+                        &[c.distance, c.bound, c.pdf, c.pmf, c.factor, c.weight, c.reach],
+                    ];
+                    assert_eq!(bits(&returned.concat()), bits(&expected.concat()), "{s:?}");
+                    assert_eq!((c.which.light, c.which.part, c.delta), (s.which.light, s.which.part, s.delta.into()));
+                    for w in [s.direction, w] {
+                        let pdf = etendue_lights_pdf(prepared.as_mut_ptr(), c.which, three(w).as_ptr());
+                        assert_eq!(pdf.to_bits(), at.pdf(s.which, w).to_bits(), "{s:?}");
+                    }
+                }
+            }
+        }
+    }
+    // SAFETY: the set is used no more
+    unsafe { etendue_lights_free(same) };
+    assert!(drawn.iter().all(|&count| count > 0), "{drawn:?}");
 }

@@ -918,6 +918,102 @@ static void test_image(uint32_t map) {
 
 // ---- more than 2^31 elements ----
 
+// A set of one light of each kind, and a mesh: the pdf of a sample is that of its direction, the light of the receiver is passed over, and what is refused writes
+// nothing.
+enum { KINDS = ETENDUE_LIGHT_KIND_IMAGE_ENVIRONMENT + 1 };
+static const void *const kind_of[KINDS - 1] = {Sphere, Triangle, Parallelogram, Rectangle, Disk, Polygon, BilinearPatch, Line, Sun, PointLight, SpotLight, DirectionalLight, NULL};
+static int is_lights_sample(const EtendueLightsSample *s) {
+    int so = isfinite(s->distance) && isfinite(s->bound) && isfinite(s->pmf) && isfinite(s->weight) && isfinite(s->reach) && s->delta <= 1;
+    for (int k = 0; k < 3; k++) so = so && isfinite(s->direction[k]) && isfinite(s->point[k]) && isfinite(s->normal[k]);
+    return so && s->pdf >= 0 && s->weight >= 0 && s->reach <= s->distance && s->pmf <= 1;
+}
+static void test_lights(void) {
+    float weights[8] = {1, 2, 3, 4, 5, 6, 7, 8}, table[18], mesh[18];
+    EtendueImageEnvironment sky;
+    CHECK(etendue_image_environment_table(2, 4) <= 18 && etendue_image_environment_build(weights, 2, 4, ETENDUE_ENVIRONMENT_MAP_EQUIRECTANGULAR, table, &sky) == OK);
+    memcpy(mesh, Triangle, sizeof Triangle);
+    memcpy(mesh + 9, Triangle, sizeof Triangle);
+    mesh[9] += 2;
+    EtendueEmitter emitters[KINDS + 1];
+    for (uint32_t k = 0; k <= KINDS; k++) {
+        const EtendueEmitter one = {k < KINDS - 1 ? kind_of[k] : k < KINDS ? (const void *)&sky : mesh, k < KINDS ? 1 : 2, k < KINDS ? k : ETENDUE_LIGHT_KIND_TRIANGLE, k % 2, {0, -1, 0}, 1 + (float)k};
+        emitters[k] = one;
+    }
+    EtendueLights *lights = NULL;
+    CHECK(etendue_lights_create(KINDS + 1, emitters, NULL) == REFUSED && etendue_lights_create(1, NULL, &lights) == REFUSED && !lights);
+    EtendueEmitter wrong = emitters[0];
+    wrong.light = NULL;
+    CHECK(etendue_lights_create(1, &wrong, &lights) == REFUSED && !lights);
+    wrong = emitters[0];
+    wrong.two_sided = 2;
+    CHECK(etendue_lights_create(1, &wrong, &lights) == ETENDUE_STATUS_VALUE && !lights);
+    wrong = emitters[0];
+    wrong.kind = KINDS;
+    CHECK(etendue_lights_create(1, &wrong, &lights) == ETENDUE_STATUS_VALUE && !lights);
+    wrong = emitters[KINDS - 1];
+    wrong.parts = 2;
+    CHECK(etendue_lights_create(1, &wrong, &lights) == ETENDUE_STATUS_VALUE && !lights);
+    wrong = emitters[0];
+    wrong.parts = SIZE_MAX;
+    CHECK(etendue_lights_create(1, &wrong, &lights) == ETENDUE_STATUS_COUNT && !lights);
+    CHECK(etendue_lights_create(0, NULL, &lights) == OK && lights);
+    EtendueReceiver receiver = {{0.1f, 0, -0.2f}, {0, 1, 0}, ETENDUE_SIDE_SURFACE, NULL};
+    EtendueLightsAt prepared;
+    EtendueLightsSample s, before;
+    const float middle[3] = {0.3f, 0.6f, 0.2f};
+    CHECK(etendue_lights_at(lights, &receiver, &prepared) == OK && etendue_lights_sample(&prepared, middle, &s) == OK && s.pdf == 0 && s.weight == 0);
+    etendue_lights_free(lights);
+    etendue_lights_free(NULL);
+    CHECK(etendue_lights_create(KINDS + 1, emitters, &lights) == OK);
+    // the set has copies
+    memset(table, PATTERN, sizeof table);
+    memset(mesh, PATTERN, sizeof mesh);
+    CHECK(etendue_lights_at(NULL, &receiver, &prepared) == REFUSED && etendue_lights_at(lights, NULL, &prepared) == REFUSED);
+    CHECK(etendue_lights_at(lights, &receiver, NULL) == REFUSED);
+    receiver.side = 3;
+    CHECK(etendue_lights_at(lights, &receiver, &prepared) == ETENDUE_STATUS_VALUE);
+    int drawn[KINDS + 1] = {0}, second = 0;
+    for (receiver.side = ETENDUE_SIDE_SURFACE; receiver.side <= ETENDUE_SIDE_NONE; receiver.side++) {
+        CHECK(etendue_lights_at(lights, &receiver, &prepared) == OK);
+        for (int i = 0; i < 20000; i++) {
+            const float u[3] = {uniform(), uniform(), uniform()};
+            CHECK(etendue_lights_sample(&prepared, u, &s) == OK && is_lights_sample(&s) && s.which.light <= KINDS);
+            drawn[s.which.light] += s.pdf > 0;
+            second += s.which.light == KINDS && s.which.part == 1;
+            const float pdf = etendue_lights_pdf(&prepared, s.which, s.direction);
+            if (s.which.light == ETENDUE_LIGHT_KIND_LINE || emitters[s.which.light].kind == ETENDUE_LIGHT_KIND_BILINEAR_PATCH)
+                CHECK(s.which.light == ETENDUE_LIGHT_KIND_LINE ? pdf == 0 : fabsf(pdf / s.pdf - 1) < 1e-3f || s.pdf == 0);
+            else
+                CHECK(s.delta ? pdf == 0 : same(pdf, s.pdf));
+        }
+    }
+    for (int k = 0; k <= KINDS; k++) CHECK(drawn[k] > 0);
+    CHECK(second > 0 && second < drawn[KINDS]);
+    // a receiver on a light
+    const EtendueWhich on = {ETENDUE_LIGHT_KIND_SPHERE, 0};
+    receiver.side = ETENDUE_SIDE_SURFACE;
+    receiver.on = &on;
+    CHECK(etendue_lights_at(lights, &receiver, &prepared) == OK);
+    for (int i = 0; i < 20000; i++) {
+        const float u[3] = {uniform(), uniform(), uniform()};
+        CHECK(etendue_lights_sample(&prepared, u, &s) == OK && (s.which.light != on.light || s.pdf == 0));
+        CHECK(etendue_lights_pdf(&prepared, on, s.direction) == 0);
+    }
+    memset(&before, PATTERN, sizeof before);
+    s = before;
+    const float outside[4] = {-1, 1, NAN, INFINITY};
+    for (int k = 0; k < 12; k++) {
+        float u[3] = {0.3f, 0.6f, 0.2f};
+        u[k % 3] = outside[k / 3];
+        CHECK(etendue_lights_sample(&prepared, u, &s) == ETENDUE_STATUS_VALUE && memcmp(&s, &before, sizeof s) == 0);
+    }
+    CHECK(etendue_lights_sample(NULL, middle, &s) == REFUSED && etendue_lights_sample(&prepared, NULL, &s) == REFUSED);
+    CHECK(etendue_lights_sample(&prepared, middle, NULL) == REFUSED && memcmp(&s, &before, sizeof s) == 0);
+    const EtendueWhich none = {KINDS + 1, 0};
+    CHECK(etendue_lights_pdf(NULL, on, up) == 0 && etendue_lights_pdf(&prepared, on, NULL) == 0 && etendue_lights_pdf(&prepared, none, up) == 0);
+    etendue_lights_free(lights);
+}
+
 // Inputs are 8 GB of zeros, which need no memory while they are only read; outputs lie in 64 MB that are mapped again and again, so that
 // the last elements remain.
 // Numbers that are no technique or no warp are refused, and nothing is written.
@@ -1103,6 +1199,8 @@ int main(int argc, char **argv) {
         current = "image_environment";
         test_image(ETENDUE_ENVIRONMENT_MAP_EQUAL_AREA);
         test_image(ETENDUE_ENVIRONMENT_MAP_EQUIRECTANGULAR);
+        current = "lights";
+        test_lights();
     }
     const uint32_t level = etendue_level();
     CHECK(level == 0 || level == 3 || level == 4);

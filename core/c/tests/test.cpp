@@ -203,6 +203,33 @@ static void test_tree() {
     CHECK(tree.pmf({x, y, z}, {flat, up, flat}, light, Span<float>(pmf.data(), 5)) == ETENDUE_STATUS_COUNT);
 }
 
+static void test_sets() {
+    const Sphere ball({0, 2, 0}, 0.5f);
+    const PointLight bulb(Vec3(1, 2, 0));
+    const Triangle mesh[] = {{{-1, 3, 0}, {1, 0, 0}, {0, 0, 1}}, {{-2, 3, 0}, {1, 0, 0}, {0, 0, 1}}};
+    const Emitter lights[] = {{ball, 3}, {bulb, 1}, Emitter(Span<const Triangle>(mesh), 2).towards({0, -1, 0}), Emitter(0.1f)};
+    Lights set;
+    CHECK(set.at(p, n).sample(0.3f, 0.6f, 0.2f).pdf == 0 && set.build(lights) == ETENDUE_STATUS_OK);
+    Lights moved = std::move(set);
+    set = std::move(moved);
+    LightsAt at = set.at(p, n), around = set.at(p, ETENDUE_SIDE_NONE);
+    uint32_t found = 0;
+    for (uint32_t i = 0; i < 64; i++) {
+        const Vec2 a = OwenSobol{1}.pair(0, i, 0), b = OwenSobol{1}.pair(0, i, 1);
+        for (LightsAt* prepared : {&at, &around}) {
+            const LightsSample s = prepared->sample(b.x, a.x, a.y);
+            CHECK(s.pdf > 0 && (s.delta ? s.which.light == 1 : prepared->pdf(s.which, s.direction) == s.pdf));
+            found |= 1u << s.which.light;
+        }
+    }
+    CHECK(found == 15);
+    const Which on = {0, 0};
+    CHECK(set.at(p, n, &on).pdf(on, Vec3(0, 1, 0)) == 0);
+    const Emitter wrong[] = {{ball, 1}, {ImageEnvironment(), 1}};
+    CHECK(set.build(wrong) != ETENDUE_STATUS_OK && set.at(p, n).sample(0.3f, 0.6f, 0.2f).pdf > 0);
+}
+static_assert(!std::is_copy_constructible_v<Lights> && std::is_nothrow_move_assignable_v<Lights>);
+
 static void test_image() {
     const std::vector<float> weights = {1, 2, 0, 4, 5, 6};
     std::vector<float> table(ImageEnvironment::table(3, 2));
@@ -440,6 +467,7 @@ int main() {
     test_warps();
     test_sequences();
     test_tree();
+    test_sets();
     test_image();
     test_pictures();
     test_skies();

@@ -60,7 +60,8 @@ impl<R: Real> Parallelogram<R> {
     /// - Formula: Ω = Ω₁ + Ω₂; u₀ < Ω₁/Ω takes the triangle (p+u, p, p+u+v) at u₀Ω/Ω₁, else (p+u+v, p, p+v) with the remainder.
     /// - Domain: u in [0, 1)²; any parallelogram, from any side.
     /// - Density: the pdf is 1/Ω per steradian inside (and within the triangle's 12 ulp beyond), 0 outside.
-    /// - Degenerate input: the point in the plane, zero area, or lengths whose sums overflow: Ω = 0 and pdf 0.
+    /// - Degenerate input: the point in the plane, zero area, lengths whose sums overflow, or a sliver so narrow that one of the
+    ///   triangles has none: Ω = 0 and pdf 0.
     /// - Greatest error: Ω 5e−7 relative. The direction is as for the triangle, if the point is at least 1e−5 of the
     ///   parallelogram's size above its plane; add what half a step of 2⁻²⁴ in u₀ does to the direction, over the sine of the
     ///   elevation of the nearest corner, since u₀ = Ω₁/Ω, where the second triangle begins, is rounded. The inverse is as for

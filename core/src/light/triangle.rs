@@ -88,7 +88,9 @@ impl<R: Real> Triangle<R> {
     /// - Domain: u in [0, 1)²; any triangle, from either side.
     /// - Density: the pdf is 1/Ω per steradian inside (and within 12 ulp beyond), 0 outside.
     /// - Degenerate input: the point in the plane (also inside the triangle), zero area, or lengths whose sums overflow: Ω = 0
-    ///   and pdf 0.
+    ///   and pdf 0. So too where the cross product of the vectors to two vertices is shorter than 3e−19 times the square of the
+    ///   greatest coordinate, because its square underflows in f32: of a sliver so narrow, or beside an edge; and where the sine of
+    ///   the angle at v0, times the lengths that it comes with, underflows: of vertices at very different distances.
     /// - Greatest error over size, elevation, aspect ratio and distance, for edges taken as given: Ω 5e−7 relative,
     ///   except 7e−5 beside the middle of an edge that is a million times longer than the triangle is wide and than the point
     ///   is far; direction 5.4e−7 (1.4e−5 of the angular size where that nears π); distance 5.4e−7 of itself over |cos| at the

@@ -373,9 +373,9 @@ fn pdf<R: Real<Scalar = R>>(at: &LightsAt<'_, R>, which: Which, w: Vec3<R>) -> R
         return R::lit(0.0);
     }
     let (pdf, is_on) = at.with(index, part, |light| light.pdf(&part.shape, w));
-    // most directions of other techniques miss the light
+    // most directions of other techniques miss the light; of one whose length overflows there is none
     let zero = R::lit(0.0);
-    if is_on || !pdf.gt(zero).any() { zero } else { at.pmf(index) * pdf }
+    if is_on || !(pdf.gt(zero) & pdf.lt(R::lit(f64::INFINITY))).any() { zero } else { at.pmf(index) * pdf }
 }
 
 #[cfg(test)]

@@ -156,6 +156,83 @@ fn edges_beside_the_point_belong_to_their_rectangle() {
     }
 }
 
+/// Points, vertices and numbers found by fuzzing: one vertex far beyond the others, and two at very different distances in nearly one
+/// direction.
+const FOUND: [([f64; 3], [[f64; 3]; 3], [f64; 2]); 2] = [
+    (
+        [0.0, 1.347_311_735_153_198_2, 0.0],
+        [
+            [1.617_728_710_174_560_5, 0.0, 0.0],
+            [-1_563.784_912_109_375, 127_089.703_125, 410_030.25],
+            [0.982_470_512_390_136_7, 0.0, 0.0],
+        ],
+        [0.164_111_137_390_136_72, 0.353_620_648_384_094_24],
+    ),
+    (
+        [0.0, -30.619_531_631_469_727, 0.0],
+        [
+            [0.0, 1.943_580_389_022_827_1, -1.032_641_172_409_057_6],
+            [41_957_179_392.0, -0.107_558_250_427_246_1, 1.708_413_758_419_763_2e16],
+            [1.943_580_389_022_827_1, -1.032_641_172_409_057_6, 41_957_179_392.0],
+        ],
+        [0.426_593_661_308_288_6, 0.999_999_940_395_355_2],
+    ),
+];
+
+/// Slivers of any width, among them one found by fuzzing: a sampler returns the pdf of its directions, and has samples all along a sliver, or none.
+#[test]
+fn slivers_have_one_pdf() {
+    fn check<R: Real<Scalar = R>>() {
+        let one_pdf = |sampler: &dyn LightSampler<R>, u: Vec2<R>, what: &str| {
+            let s = sampler.sample(u);
+            let (pdf, again) = (s.pdf.lane_f64(0), sampler.pdf(s.direction).lane_f64(0));
+            assert!(pdf.is_finite() && pdf.to_bits() == again.to_bits(), "{what}: {s:?}, {again:e}");
+            s
+        };
+        let p = Vec3::<R>::default();
+        for (p, vertices, u) in FOUND {
+            let [a, b, c] = vertices.map(Vec3::<R>::lit);
+            one_pdf(&Triangle::new(a, b, c).by_solid_angle(Vec3::lit(p)), Vec2::lit(u), &format!("{vertices:?}"));
+        }
+        let edges = [[-1e-30, 8.978_338e-39, -7.627_898e-27], [0.020_098_03; 3]].map(Vec3::lit);
+        let found = Parallelogram::new(Vec3::lit([1.000_000_1, -0.017_785_061, -1.0]), edges[0], edges[1]);
+        let mut random = Random::new(61);
+        for i in 0..40_000 {
+            let width = 10.0_f64.powi(-(i % 40));
+            let [origin, across, along] = [(); 3].map(|()| random.direction());
+            let [n, a, b] = [origin, across.map(|x| x * width), along].map(Vec3::<R>::lit);
+            let (a, b) = if random.word().is_multiple_of(2) { (a, b) } else { (b, a) };
+            let light = if i == 0 { found } else { Parallelogram::new(n, a, b) };
+            let Parallelogram { corner, edge_s, edge_t } = light;
+            let triangle = Triangle { v0: corner, e1: edge_s, e2: edge_t };
+            let u = Vec2::new(random.unit(), random.unit()).map(|x| R::lit(f64::from(x)));
+            let what = format!("{light:?} {u:?}");
+            // with one vertex far away
+            let distant = Triangle { e1: a * R::lit(1e6 / width.max(1e-7)), ..triangle };
+            one_pdf(&distant.by_solid_angle(p), u, &format!("{distant:?} {u:?}"));
+            one_pdf(&light.by_area(p), u, &what);
+            one_pdf(&triangle.by_area(p), u, &what);
+            one_pdf(&light.by_projected_solid_angle(p, n), u, &what);
+            one_pdf(&triangle.by_projected_solid_angle(p, n), u, &what);
+            let samplers: [&dyn LightSampler<R>; 2] = [&light.by_solid_angle(p), &triangle.by_solid_angle(p)];
+            for sampler in samplers {
+                let s = one_pdf(sampler, u, &what);
+                // the edges, and where the long one begins, are clearly apart
+                let clear = length(cross(across, along)) > 0.1 && length(cross(origin, along)) > 0.1;
+                let clear = i > 0 && clear && dot(origin, cross(across, along)).abs() > 0.1;
+                assert!(!clear || width < 1e-17 || s.pdf.lane_f64(0) > 0.0, "{what}: {s:?}");
+                if clear && s.pdf.lane_f64(0) > 0.0 {
+                    let [start, end] =
+                        [0.0, 0.999].map(|x| sampler.sample(Vec2::new(R::lit(0.5), R::lit(x))).direction);
+                    assert!((end - start).length().lane_f64(0) > 0.01, "{what}: {start:?} to {end:?}");
+                }
+            }
+        }
+    }
+    check::<f32>();
+    check::<f64>();
+}
+
 /// The surface coordinates and the normal of a sample are those of the point at its distance in its direction, in double precision.
 #[test]
 fn samples_know_their_place() {

@@ -46,10 +46,11 @@ impl<R: Real> SphericalParallelogram<R> {
         let normal = rounded(normal);
         let first = Planes { n01: -rounded(pu), n02: rounded(far_u), n12: diagonal, normal, volume, edge: u + v };
         let second = Planes { n01: -diagonal, n02: rounded(far_v), n12: rounded(pv), normal, volume, edge: v };
-        Self {
-            first: SphericalTriangle::prepare([a, p, b], first, || first.n12, scale),
-            second: SphericalTriangle::prepare([b, p, c], second, || second.n12, scale),
-        }
+        let first = SphericalTriangle::prepare([a, p, b], first, || first.n12, scale);
+        let second = SphericalTriangle::prepare([b, p, c], second, || second.n12, scale);
+        // neither alone has the density of both
+        let both = first.solid_angle().gt(R::lit(0.0)) & second.solid_angle().gt(R::lit(0.0));
+        Self { first: first.keep(both), second: second.keep(both) }
     }
     /// The triangle for `u`, the `u` within it, 1−u₀ there, since the difference would have few digits near the end of the second, and
     /// whether it is the first.

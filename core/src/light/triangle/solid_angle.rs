@@ -122,6 +122,12 @@ impl<R: Real> SphericalTriangle<R> {
         Self::prepare([v0, v1, v2], Planes { n01, n02, n12, normal, volume, edge }, exact, scale)
     }
 
+    /// Without a solid angle where not `some`.
+    #[inline(always)]
+    pub(in crate::light) fn keep(self, some: R::Mask) -> Self {
+        Self { solid_angle: self.solid_angle.keep(some), ..self }
+    }
+
     /// Direction, distance and barycentric coordinates, where 1−u₀ is known more accurately than the difference gives it.
     #[inline(always)]
     pub(in crate::light) fn sample_point_from(&self, u: Vec2<R>, rest: R) -> (DirectionSample<R>, [R; 3]) {

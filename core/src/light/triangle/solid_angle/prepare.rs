@@ -7,6 +7,12 @@ use crate::math::rsqrt;
 use crate::real::{Mask, Real};
 use crate::vector::{Vec2, Vec3};
 
+/// Square of the length below which the cross product of two vertices counts as 0.
+const LEAST_SQUARED: f64 = 1e-37;
+
+/// Where v1 is so many times as far as v2, the edge between them is so much longer than V₂ that its rounding counts, and V₂ takes its place.
+const FAR: f64 = 128.0;
+
 /// The vertices as the point sees them.
 struct Corners<R> {
     v: [Vec3<R>; 3],
@@ -66,7 +72,7 @@ impl<R: Real> Side<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let (&Corners { d01, .. }, [i0, i1, _], [l0, l1, _]) = (corners, corners.inverse, corners.length);
         let squared = n01.length_squared();
-        let inverse = rsqrt(squared).keep(squared.gt(R::lit(1e-37)));
+        let inverse = rsqrt(squared).keep(squared.gt(R::lit(LEAST_SQUARED)));
         let sin = squared * inverse * i0 * i1;
         let inv_sin = inverse * l0 * l1;
         // the smaller one of 1 − d₀₁ and 1 + d₀₁ comes from the sine
@@ -161,8 +167,8 @@ struct Half<R> {
 
 impl<R: Real> Half<R> {
     #[inline(always)]
-    fn new(g0: R, total: R, apart: R::Mask) -> Self {
-        let solid_angle = (R::lit(2.0) * g0.atan2(total)).keep(apart & g0.gt(R::lit(0.0)));
+    fn new(g0: R, total: R, some: R::Mask) -> Self {
+        let solid_angle = (R::lit(2.0) * g0.atan2(total)).keep(some & g0.gt(R::lit(0.0)));
         let inv_g0 = R::lit(1.0) / R::blend(g0.gt(R::lit(1e-37)), g0, R::lit(1.0));
         let squared = g0.mul_add(g0, total * total).greater(R::lit(1e-36));
         let over = rsqrt(squared);
@@ -183,12 +189,25 @@ impl<R: Real> Half<R> {
     }
 }
 
-/// cotα at v0, from sinα : cosα = |volume| l₀ : n₀₁·n₀₂.
+/// cotα at v0, from sinα : cosα = |volume| l₀ : n₀₁·n₀₂, and where it is known: the sine of a narrower angle would underflow.
 #[inline(always)]
-fn cot_alpha<R: Real>(corners: &Corners<R>, planes: &Planes<R>) -> R {
+fn cot_alpha<R: Real>(corners: &Corners<R>, planes: &Planes<R>) -> (R, R::Mask) {
     let opposite = planes.volume.abs() * corners.length[0];
     let angle = opposite.gt(R::lit(1e-37));
-    (planes.n01.dot(planes.n02) / R::blend(angle, opposite, R::lit(1.0))).keep(angle)
+    ((planes.n01.dot(planes.n02) / R::blend(angle, opposite, R::lit(1.0))).keep(angle), angle)
+}
+
+/// True where the plane through each side is known: the square of a shorter normal would underflow. A side on whose line the point lies, between
+/// its ends, has a plane that is short as well; only the map, which begins at v0 v1, cannot do without it.
+#[inline(always)]
+fn measurable<R: Real>(corners: &Corners<R>, side: &Side<R>, opposite: &Opposite<R>, planes: &Planes<R>) -> R::Mask {
+    let ([_, l1, l2], &Opposite { x2, y2, .. }) = (corners.length, opposite);
+    let (zero, both) = (R::lit(0.0), l1 * l2);
+    let known = |squared: R, d: R| squared.gt(R::lit(LEAST_SQUARED)) | d.lt(zero);
+    let side02 = known(planes.n02.length_squared(), corners.d02);
+    // |V₁×V₂|, which samples alone need not
+    let side12 = known(x2.mul_add(x2, y2 * y2) * (both * both), corners.d12);
+    side.inverse.gt(zero) & side02 & side12
 }
 
 /// How far a direction may be beyond each plane. The map starts from the great circle through v0 and v1; that one, and any through nearly
@@ -220,6 +239,10 @@ impl<R: Real> SphericalTriangle<R> {
         let pole = planes.n01 * side.inverse;
         let along = corners.apex.cross(pole);
         let mut opposite = Opposite::new(&corners, &side, &planes, along);
+        let far = corners.inverse[2].gt(corners.inverse[1] * R::lit(FAR));
+        if far.any() {
+            opposite.x2 = R::blend(far, along.dot(corners.v[2]) * corners.inverse[2], opposite.x2);
+        }
         // a side of more than 120° is rare: do the extra work only where there is one
         let wide = corners.d01.lesser(corners.d02).lesser(corners.d12).lt(R::lit(-0.5));
         if wide.any() {
@@ -228,7 +251,9 @@ impl<R: Real> SphericalTriangle<R> {
         }
         let [i0, i1, i2] = corners.inverse;
         let g0 = planes.volume.abs() * i0 * i1 * i2;
-        let half = Half::new(g0, opposite.total, corners.apart());
+        let (cot_alpha, angle) = cot_alpha(&corners, &planes);
+        let some = corners.apart() & measurable(&corners, &side, &opposite, &planes) & angle;
+        let half = Half::new(g0, opposite.total, some);
         let behind = planes.volume.lt(R::lit(0.0));
         let inwards = |n: Vec3<R>| Vec3::blend(behind, -n, n);
         let [l0, l1, l2] = corners.length;
@@ -243,7 +268,7 @@ impl<R: Real> SphericalTriangle<R> {
             apex: corners.apex,
             along,
             across: inwards(pole),
-            cot_alpha: cot_alpha(&corners, &planes),
+            cot_alpha,
             stretch: side.stretch,
             tan_half: side.tan_half,
             half: half.half,
