@@ -10,7 +10,7 @@
 use super::identity::Identity;
 use super::light_weights::APART;
 use super::pixel_counts::PixelCounts;
-use super::pixel_statistics::Statistics;
+use super::pixel_statistics::{Outline, Statistics};
 use super::view::Content;
 use crate::film::files::{FileError, failed, make_folder, replace};
 use crate::film::image::Compression;
@@ -77,6 +77,9 @@ impl Piece {
 /// Names of the channels.
 const RGB: [&str; 3] = ["R", "G", "B"];
 
+/// Names of what tells of the variance.
+const SQUARES: [&str; 2] = ["squares", "outline.squares"];
+
 /// Adds planes of numbers of double precision: the bits of each, in two.
 fn split(planes: &mut Vec<(String, Numbers)>, name: &str, values: &dyn Fn() -> Vec<f64>) {
     let bits: Vec<u64> = values().into_iter().map(f64::to_bits).collect();
@@ -104,8 +107,12 @@ fn to_planes(identity: &Identity, content: Content) -> Vec<(String, Numbers)> {
             for (set, (k, channel)) in (0..sets).flat_map(|set| RGB.into_iter().enumerate().map(move |c| (set, c))) {
                 let of = || pixels.iter().map(|pixel| pixel.sums[set][k]).collect();
                 split(&mut planes, &format!("sum.set{set}.{channel}"), &of);
+                let of = || pixels.iter().map(|pixel| pixel.seen[set][k]).collect();
+                split(&mut planes, &format!("seen.set{set}.{channel}"), &of);
             }
             split(&mut planes, "variance", &|| pixels.iter().map(|pixel| pixel.variance).collect());
+            split(&mut planes, "outline", &|| pixels.iter().map(|pixel| pixel.outline.variance).collect());
+            planes.push(("outline.part".into(), Numbers::F32(pixels.iter().map(|pixel| pixel.outline.part).collect())));
             planes.push(("part".into(), Numbers::F32(pixels.iter().map(|pixel| pixel.part).collect())));
             planes.push(("packets".into(), Numbers::U32(pixels.iter().map(|pixel| pixel.packets).collect())));
             let count = pixels.first().map_or(0, |pixel| pixel.lights);
@@ -115,12 +122,17 @@ fn to_planes(identity: &Identity, content: Content) -> Vec<(String, Numbers)> {
             planes.extend(lights("taken", count, &|k| Numbers::U32(all.clone().map(|p| p.taken[k]).collect())));
         }
         Content::Counts(counts) => {
-            let PixelCounts { packets, lights: count, weights, squares, begun, sums, expected, .. } = &counts;
+            let PixelCounts { packets, looks, lights: count, weights, squares, begun, sums, seen, expected, .. } =
+                &counts;
             for (set, (k, channel)) in (0..sets).flat_map(|set| RGB.into_iter().enumerate().map(move |c| (set, c))) {
                 split(&mut planes, &format!("sum.set{set}.{channel}"), &|| sums.iter().map(|s| s[set][k]).collect());
+                split(&mut planes, &format!("seen.set{set}.{channel}"), &|| seen.iter().map(|s| s[set][k]).collect());
             }
             planes.push(("packets".into(), Numbers::U32(packets.clone())));
-            planes.push(("squares".into(), Numbers::F32(squares.clone())));
+            planes.push(("looks".into(), Numbers::U32(looks.clone())));
+            for (k, name) in SQUARES.into_iter().enumerate() {
+                planes.push((name.into(), Numbers::F32(squares.iter().map(|of| of[k]).collect())));
+            }
             // the same in all pixels
             split(&mut planes, "expected", &|| vec![*expected; packets.len()]);
             let weight = |k: usize| weights.iter().skip(k).step_by(*count).copied().collect();
@@ -169,14 +181,14 @@ impl LayerPlanes {
         Some(all)
     }
     /// Packets in each set, unless there are more than can be counted.
-    fn packets(&mut self, sets: usize) -> Option<Vec<u32>> {
-        let packets = self.u32("packets")?;
+    fn packets(&mut self, sets: usize, name: &str) -> Option<Vec<u32>> {
+        let packets = self.u32(name)?;
         packets.iter().all(|packets| packets.checked_mul(8 * sets as u32).is_some()).then_some(packets)
     }
-    fn sums(&mut self, sets: usize, pixels: usize) -> Option<Vec<[[f64; 3]; 4]>> {
+    fn sums(&mut self, of: &str, sets: usize, pixels: usize) -> Option<Vec<[[f64; 3]; 4]>> {
         let mut sums = vec![[[0.0; 3]; 4]; pixels];
         for set in 0..sets {
-            let of_set = self.colors(&|channel| format!("sum.set{set}.{channel}"))?;
+            let of_set = self.colors(&|channel| format!("{of}.set{set}.{channel}"))?;
             sums.iter_mut().zip(of_set).for_each(|(sums, sum)| sums[set] = sum);
         }
         Some(sums)
@@ -209,13 +221,17 @@ fn from_planes(identity: &Identity, kind: PieceKind, area: Area, planes: Vec<(St
         }
         PieceKind::Pilot(lights) => {
             let lights = lights as usize;
-            let (sums, variance, part) = (found.sums(sets, count)?, found.f64("variance")?, found.f32("part")?);
-            let packets = found.packets(sets)?;
+            let (sums, seen) = (found.sums("sum", sets, count)?, found.sums("seen", sets, count)?);
+            let (outline, outline_part) = (found.f64("outline")?, found.f32("outline.part")?);
+            let (variance, part) = (found.f64("variance")?, found.f32("part")?);
+            let packets = found.packets(sets, "packets")?;
             let spread = found.lights("spread", lights, count, LayerPlanes::f32)?;
             let pairs = found.lights("pairs", lights, count, LayerPlanes::u32)?;
             let taken = found.lights("taken", lights, count, LayerPlanes::u32)?;
             let pixel = |i: usize| Statistics {
                 sums: sums[i],
+                seen: seen[i],
+                outline: Outline { variance: outline[i], part: outline_part[i] },
                 packets: packets[i],
                 variance: variance[i],
                 part: part[i],
@@ -229,16 +245,20 @@ fn from_planes(identity: &Identity, kind: PieceKind, area: Area, planes: Vec<(St
         PieceKind::Counts(lights) => {
             let lights = lights as usize;
             let weights = found.lights("weight", lights, count, LayerPlanes::f32)?;
-            let packets = found.packets(sets)?;
+            let packets = found.packets(sets, "packets")?;
+            let looks = found.packets(sets, "looks")?;
+            let [squares, outlines] = SQUARES.map(|name| found.f32(name));
             Content::Counts(PixelCounts {
                 area,
                 packets,
+                looks,
                 lights,
                 weights: weights.iter().flat_map(|weights| weights[..lights].iter().copied()).collect(),
-                squares: found.f32("squares")?,
+                squares: squares?.into_iter().zip(outlines?).map(|(own, outline)| [own, outline]).collect(),
                 expected: found.f64("expected")?.first().copied().unwrap_or(0.0),
                 begun: found.lights("taken", lights, count, LayerPlanes::u32)?,
-                sums: found.sums(sets, count)?,
+                sums: found.sums("sum", sets, count)?,
+                seen: found.sums("seen", sets, count)?,
             })
         }
     })
