@@ -12,7 +12,9 @@
 //! 4. Where few lights shine, the packets of a pixel are *allocated* to them instead of choosing lights at random. For the pilot, weights are
 //!    what each light can contribute at the pixel's corners (`corners`); then, what the pilot tells of its variance around the pixel
 //!    (`light_weights`).
-//! 5. The second set of some pixels is rendered: as many samples once more, which are no part of the image. Its squared differences from the
+//! 5. Where outlines of lights in view are most of the variance, further rays only look at these: 8 of them take the time of 3 samples
+//!    (`pixel_counts`).
+//! 6. The second set of some pixels is rendered: as many samples once more, which are no part of the image. Its squared differences from the
 //!    first set tell by what factor the variance of all pixels of a tile differs from what the spread of their samples lets expect.
 //!
 //! An image of a given error or time repeats this in passes, each of up to eight times as many samples ([`progressive`]).

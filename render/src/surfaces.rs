@@ -62,7 +62,9 @@ pub struct Surfaces {
     mesh_materials: Vec<u32>,
     /// Material of all triangles if `mesh_materials` is empty.
     one_material: u32,
-    /// Whether all surfaces are flat, or spheres, and diffuse, each with one albedo.
+    /// Whether all surfaces are diffuse, and seen from both sides: what rays from the camera hit first is all that they see.
+    pub is_diffuse: bool,
+    /// The same, and they are flat, or spheres, each with one albedo.
     pub is_plain: bool,
     rough: bool,
     estimates: bool,
@@ -148,12 +150,12 @@ impl Surfaces {
         let mut single_sided = vec![false; if scene.single_sided.is_empty() { 0 } else { means.len() }];
         scene.single_sided.iter().for_each(|of| single_sided[*of as usize] = true);
         let detailed = varying.iter().any(Option::is_some) || !scene.details.of_triangles.is_empty();
+        let is_diffuse = scene.single_sided.is_empty() && means.iter().all(|m| matches!(m, Material::Diffuse(_)));
         Self {
             rough: means.iter().any(Material::is_glossy),
             estimates: means.iter().any(|of| matches!(of, Material::CoatedConductor { .. }) && of.is_glossy()),
-            is_plain: !detailed
-                && scene.single_sided.is_empty()
-                && means.iter().all(|m| matches!(m, Material::Diffuse(_))),
+            is_diffuse,
+            is_plain: !detailed && is_diffuse,
             shapes: Arc::clone(&scene.shapes),
             pictures: Arc::clone(&scene.pictures),
             profiles: Arc::clone(&scene.profiles),
@@ -259,6 +261,17 @@ impl Surfaces {
             let outward = shape.geometry.outward_at([rays.origin, rays.direction], hits.distance);
             f(index, here, shape, outward);
         });
+    }
+
+    /// Radiance that the shapes which eight rays hit emit against them.
+    pub fn emission(&self, hits: &Hits, rays: &Rays) -> V8 {
+        let mut emission = V8::default();
+        self.each_shape(hits, hits.shapes(), rays, |_, here, shape, outward| {
+            if let Some((radiance, lit)) = self.emitted(hits, here, shape, outward, rays) {
+                emission = V8::blend(lit, radiance, emission);
+            }
+        });
+        emission
     }
 
     /// Adds the spheres and emitters that eight rays hit.

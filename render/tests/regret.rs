@@ -174,7 +174,7 @@ fn measure(name: &str, scene: &Scene) -> Option<[f64; 2]> {
     let mut order: Vec<&Taken> = all.iter().collect();
     order.sort_by(|a, b| b.efficiency().total_cmp(&a.efficiency()));
     for one in order {
-        let RayCount { camera, mirror, shadow, corner, proofs, forms } = one.rays;
+        let RayCount { camera, look, mirror, shadow, corner, proofs, forms } = one.rays;
         let samples = truth.film.pixels.len() as f64 * f64::from(SPP);
         let per = |x: u64| x as f64 / samples;
         println!(
@@ -183,7 +183,7 @@ fn measure(name: &str, scene: &Scene) -> Option<[f64; 2]> {
             one.efficiency() / best,
             one.square().sqrt() / mean,
             1e9 * one.seconds() / samples,
-            per(camera),
+            per(camera + look),
             per(mirror),
             per(shadow),
             per(corner),

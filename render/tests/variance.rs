@@ -43,6 +43,8 @@ fn images_tell_their_error() {
     for (name, technique, sampler, spp, sets, limits, seeds) in [
         ("quads", SolidAngle, Sampler::Sobol, 64, 4, [0.025, 0.3], cases(12, 24)),
         ("quads", Analytic, Sampler::Adaptive, 64, 4, [0.05, 0.3], cases(12, 24)),
+        // lamps in view, at whose outlines rays only look
+        ("studio", SolidAngle, Sampler::Adaptive, 64, 0, [0.15, 0.3], cases(24, 80)),
         ("plates", MisPower, Sampler::Adaptive, 64, 0, [0.15, 0.3], cases(24, 80)),
         ("sphere-light", SolidAngle, Sampler::Adaptive, 64, 0, [0.15, 0.3], cases(24, 80)),
         ("quads", Analytic, Sampler::Adaptive, 64, 0, [0.15, 0.3], cases(24, 80)),
@@ -53,7 +55,7 @@ fn images_tell_their_error() {
         ("defocus", SolidAngle, Sampler::Adaptive, 256, 0, [0.15, 0.3], 40),
     ]
     .into_iter()
-    .take(cases(4, 9))
+    .take(cases(5, 10))
     {
         let settings = Settings { width: 64, height: 64, technique, sampler, spp, sets, ..Settings::DEFAULT };
         let ratios = claimed_over_found(&builtin(name), &settings, seeds);
@@ -68,13 +70,15 @@ fn images_tell_their_error() {
 type VarianceCase = (&'static str, Technique, &'static [(Sampler, u32, u32)], u32, u64, f64);
 
 /// The mean over seeds is that of an image with randomly chosen lights, also where corners do not see what the pixel sees, through a lens, and for
-/// metals, where the BSDF's samples are weighted by the pmf of the allocation. (If the number of samples depended on the pixel itself, dark
+/// metals, where the BSDF's samples are weighted by the pmf of the allocation; and beside lamps in view. (If the number of samples depended on the pixel itself, dark
 /// pixels would be left dark.)
 #[test]
 fn allocated_samples_have_no_bias() {
     use Sampler::{Adaptive, Sobol};
-    let rows: [VarianceCase; 4] = [
+    let rows: [VarianceCase; 5] = [
         ("sphere-light", Technique::SolidAngle, &[(Adaptive, 16, 1)], cases(1 << 11, 1 << 14), cases(30, 120), 4e-5),
+        // lamps in view, at whose outlines rays only look
+        ("studio", Technique::SolidAngle, &[(Adaptive, 16, 1), (Adaptive, 64, 0)], 1 << 12, cases(30, 120), 1.5e-3),
         (
             "quads",
             Technique::SolidAngle,
@@ -93,7 +97,7 @@ fn allocated_samples_have_no_bias() {
         ),
         ("defocus", Technique::SolidAngle, &[(Sobol, 8, 4), (Adaptive, 64, 4)], 1 << 13, 40, 1e-2),
     ];
-    for (name, technique, ways, precise, images, most) in rows.into_iter().take(cases(3, 4)) {
+    for (name, technique, ways, precise, images, most) in rows.into_iter().take(cases(4, 5)) {
         let world = builtin(name);
         let of = |sampler, spp, sets, seed| {
             let settings = Settings { width: 32, height: 32, technique, sampler, spp, sets, seed, ..Settings::DEFAULT };

@@ -423,8 +423,8 @@ fn next_steps(options: &Options, done: &Image, chosen: Technique) -> io::Result<
 
 /// Numbers of rays and how many were traced in a second; those of mirrors only if there are any.
 fn rays(count: &RayCount, seconds: f64) -> String {
-    let RayCount { camera, mirror, shadow, .. } = *count;
-    let kinds = [("camera", camera), ("mirror", mirror), ("shadow", shadow)].into_iter();
+    let RayCount { camera, look, mirror, shadow, .. } = *count;
+    let kinds = [("camera", camera + look), ("mirror", mirror), ("shadow", shadow)].into_iter();
     let kinds = kinds.filter(|&(kind, number)| kind != "mirror" || number > 0);
     let texts = kinds.map(|(kind, number)| {
         format!("{} {kind} rays ({:.3} million/s)", grouped(number), number as f64 / seconds / 1e6)

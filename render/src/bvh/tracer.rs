@@ -18,6 +18,8 @@ pub struct Scratch {
 pub struct RayCount {
     /// Rays from the camera.
     pub camera: u64,
+    /// Further rays from the camera that only see what it sees directly, the lights and the sky.
+    pub look: u64,
     /// Rays reflected by mirrors.
     pub mirror: u64,
     /// Rays towards a light, or over the hemisphere to find one.
@@ -33,6 +35,7 @@ pub struct RayCount {
 impl AddAssign for RayCount {
     fn add_assign(&mut self, other: Self) {
         self.camera += other.camera;
+        self.look += other.look;
         self.mirror += other.mirror;
         self.shadow += other.shadow;
         self.corner += other.corner;

@@ -41,6 +41,21 @@ impl<'a> Paths<'a> {
         if self.scene.surfaces.is_plain { self.hit(active) } else { self.reflect(active) }
     }
 
+    /// Follows these lanes of the rays that have been started only as far as it takes to tell what is [seen](Self::seen).
+    pub(crate) fn look(&mut self, active: &[M8]) {
+        if !self.scene.surfaces.is_diffuse {
+            return self.follow(active);
+        }
+        let Self { scene, tracer, seen, .. } = self;
+        let count = active.len();
+        let mut hits = [Hits::none(X8::lit(f64::INFINITY)); GROUP];
+        scene.surfaces.bvh.closest(&tracer.camera[..count], active, &mut hits[..count], &mut tracer.scratch);
+        for (p, (hits, active)) in hits[..count].iter().zip(active).enumerate() {
+            let emitted = scene.surfaces.emission(hits, &tracer.camera[p]);
+            seen[p] = emission(scene, tracer, p, emitted, *active & !hits.any());
+        }
+    }
+
     /// Notes what the fits of glossy surfaces are at the ends of the first packets.
     pub(crate) fn note_lobes(&mut self, count: usize) {
         if !self.scene.surfaces.is_plain {
@@ -58,7 +73,7 @@ impl<'a> Paths<'a> {
         for (p, (hits, active)) in hits[..count].iter().zip(active).enumerate() {
             points.surfaces[p] = world.hit(hits, &tracer.camera[p]);
             points.places[p].primitives = hits.primitives;
-            seen[p] = emission(scene, tracer, p, &points.surfaces[p], *active & !hits.any());
+            seen[p] = emission(scene, tracer, p, points.surfaces[p].emission, *active & !hits.any());
         }
     }
 
@@ -83,7 +98,7 @@ impl<'a> Paths<'a> {
                     continue;
                 }
                 let mut surface = world.hit(&hits[p], &tracer.camera[p]);
-                let emitted = emission(scene, tracer, p, &surface, here & !hits[p].any());
+                let emitted = emission(scene, tracer, p, surface.emission, here & !hits[p].any());
                 seen[p] += keep(product(points.ends[p].throughput, emitted), here);
                 let (incoming, flat) = (tracer.camera[p].direction, surface.normal);
                 let passed = world.unseen_backs(&hits[p], here, &tracer.camera[p]);
@@ -121,13 +136,13 @@ impl<'a> Paths<'a> {
     }
 }
 
-/// Radiance towards the rays of a packet: of what they hit, or of the sky where they `missed`.
+/// Radiance towards the rays of a packet: what is `emitted` where they hit, or that of the sky where they `missed`.
 #[inline(always)]
-fn emission(scene: &PreparedScene, tracer: &Tracer, packet: usize, surface: &Surface, missed: M8) -> V8 {
+fn emission(scene: &PreparedScene, tracer: &Tracer, packet: usize, emitted: V8, missed: M8) -> V8 {
     let rays = &tracer.camera[packet];
     match &scene.sky {
-        Some(sky) if missed.any() => V8::blend(missed, sky.radiance(rays.origin, rays.direction), surface.emission),
-        _ => surface.emission,
+        Some(sky) if missed.any() => V8::blend(missed, sky.radiance(rays.origin, rays.direction), emitted),
+        _ => emitted,
     }
 }
 

@@ -196,12 +196,13 @@ fn of_sample((technique, choice): TechniqueChoice, is_few: bool) -> f64 {
 
 /// The cost of what was counted, with `times` as many samples but the same proofs.
 pub(super) fn cost(way: TechniqueChoice, is_few: bool, count: &RayCount, times: f64) -> f64 {
-    let RayCount { camera, mirror, shadow, corner, proofs, forms } = count;
-    let [camera, mirror, shadow, corner, proofs, forms] =
-        [camera, mirror, shadow, corner, proofs, forms].map(|n| *n as f64);
+    let RayCount { camera, look, mirror, shadow, corner, proofs, forms } = count;
+    let [camera, look, mirror, shadow, corner, proofs, forms] =
+        [camera, look, mirror, shadow, corner, proofs, forms].map(|n| *n as f64);
     // where lights are known, none is sampled
     let sampled = if way.0 == Technique::Analytic { shadow.min(camera) } else { camera };
-    let samples = camera * CAMERA + mirror * MIRROR + shadow * SHADOW + forms * FORM + sampled * of_sample(way, is_few);
+    let samples =
+        (camera + look) * CAMERA + mirror * MIRROR + shadow * SHADOW + forms * FORM + sampled * of_sample(way, is_few);
     times * samples + corner * CAMERA + proofs * PROOF
 }
 

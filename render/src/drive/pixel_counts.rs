@@ -1,11 +1,14 @@
 //! How many samples each pixel takes: a few of a pilot everywhere, and the rest where the variance around a pixel is great.
 //!
+//! What the camera sees directly, lights and the sky, has a number of its own: where their outlines are most of the variance, further rays look
+//! at them without sampling lights. A pixel is the sum of two means, of n samples of what surfaces reflect, and of m ≥ n of what is seen directly.
+//!
 //! The pilot's samples are part of the image, and yet its mean is that of the light, exactly:
 //! 1. A pixel has one of nine colours, (column mod 3, row mod 3). Samples of different pixels are independent.
 //! 2. The counts of the pixels of a colour, and their weights of lights, are a function of the pilot of the other eight colours alone: so are
 //!    the means around these pixels, and the scale that makes the counts of this colour its share of all samples, which is fixed.
-//! 3. Given the pilot of the other colours, the count n of a pixel is thus a constant, and its samples are what they were without a pilot.
-//! 4. The mean of the first n samples of a pixel has the light as its expectation, for each constant n.
+//! 3. Given the pilot of the other colours, the counts n and m of a pixel are thus constants, and its samples are what they were without a pilot.
+//! 4. The mean of the first n samples of a pixel has the light as its expectation, for each constant n: each part of it, as well.
 //! 5. So it has it for the counts that are found, too. (With one scale for all pixels, a bright speck that its own pixel's pilot met would
 //!    give the samples to the others, and one that it missed to its own: means were up to half too great.)
 
@@ -28,6 +31,11 @@ const NEAR: usize = 2;
 /// helps a pilot of eight samples; with more it makes no difference.)
 const OUTERMOST: usize = 6;
 const WEIGHT_OUTERMOST: f64 = 0.003;
+
+/// The time of a sample that only looks, relative to that of one that samples lights, too: 0.1 to 0.3 in meshes under many lamps, 0.5 to 1 where
+/// closed forms need no shadow rays. (64 samples, efficiency with 0.12, 0.25 and 0.5: dunes 2.32, 2.00, 1.79; `studio` 1.87, 2.34, 2.43;
+/// `cornell-box` 0.84, 0.95, 1.08.)
+const LOOK: f64 = 0.4;
 
 /// Pixels whose rows and columns both differ by multiples of this have the same colour. No other number leaves all near neighbours with other
 /// colours and is smaller.
@@ -81,12 +89,15 @@ pub(super) struct PixelCounts<'a> {
     pilot: &'a [Statistics],
     /// Packets of each pixel in each set, with those of the pilot.
     packets: Vec<u32>,
+    /// The same with those that only see what the camera sees directly.
+    looks: Vec<u32>,
     /// Number of lights among which the samples are shared by weight; 0 if they are not.
     lights: usize,
     /// The weight of each light at each pixel.
     weights: Vec<f32>,
     /// What the pilot tells of the variance of each pixel: that of a set of n samples is about proportional to this and to n^−1.5.
-    squares: Vec<f32>,
+    /// (Of what the camera sees directly that is the second number, which tells of the number of looks.)
+    squares: Vec<[f32; 2]>,
     /// Samples per set of each light in the pilot.
     begun: Vec<[u32; APART]>,
     /// The sum of the variances of all pixels of the image, as the pilot tells them, but for a common factor.
@@ -101,15 +112,17 @@ impl<'a> PixelCounts<'a> {
     pub(super) fn new(settings: &Settings, area: Area, pilot: &'a [Statistics]) -> Self {
         assert_eq!(pilot.len(), area::count(area));
         let plan = SamplePlan::new(settings).with_pilot(pilot[0].packets);
-        let (packets, weights) = count_packets(pilot, area[2] - area[0], &plan);
+        let ([packets, looks], weights) = count_packets(pilot, area[2] - area[0], &plan);
         let (lights, of) = weights.unwrap_or_default();
-        let squares: Vec<f32> = pilot.iter().map(|pixel| pixel.square() as f32).collect();
-        let of_pixel = |(square, packets): (&f32, &u32)| f64::from(*square) * fall((*packets).into());
-        let expected = (1.0 + BESIDE) * squares.iter().zip(&packets).map(of_pixel).sum::<f64>();
+        let squares: Vec<_> = pilot.iter().map(|p| [p.square() as f32, p.outline.square() as f32]).collect();
+        let counts = packets.iter().zip(&looks).map(|(packets, looks)| [*packets, *looks]);
+        let of_pixel = |(squares, counts): (&[f32; 2], [u32; 2])| expected(squares.map(f64::from), counts);
+        let expected = (1.0 + BESIDE) * squares.iter().zip(counts).map(of_pixel).sum::<f64>();
         Self {
             area,
             expected,
             packets,
+            looks,
             lights,
             weights: of,
             squares,
@@ -126,9 +139,10 @@ impl<'a> PixelCounts<'a> {
         let [left, top, right, _] = self.area;
         ((y - top) * (right - left) + (x - left)) as usize
     }
-    /// Packets of a pixel in each set, with those of the pilot.
-    fn packets_at(&self, pixel: [u32; 2]) -> u32 {
-        self.packets[self.index(pixel)]
+    /// Packets of a pixel in each set, with those of the pilot; and with those that only look.
+    fn counts_at(&self, pixel: [u32; 2]) -> [u32; 2] {
+        let index = self.index(pixel);
+        [self.packets[index], self.looks[index]]
     }
     /// Renders the samples of a tile that follow the pilot, and some pixels a second time where the differences estimate the variance. Returns
     /// the finished pixels.
@@ -140,69 +154,117 @@ impl<'a> PixelCounts<'a> {
         &SamplePlan { sets, pilot, checks, .. }: &SamplePlan,
     ) -> Vec<Pixel> {
         renderer.begin(tile);
-        let rest = renderer.parts(tile, pilot, 0..sets, weights, |pixel| [pilot, self.packets_at(pixel)]);
-        let mut pixels = self.finish(tile, &rest, sets);
+        let rest = renderer.parts(tile, pilot, 0..sets, weights, |pixel| [pilot, self.counts_at(pixel)[0]]);
+        let looks = renderer.looks(tile, 0..sets, |pixel| self.counts_at(pixel));
+        let mut pixels = self.finish(tile, [&rest, &looks], sets);
         if checks > 0.0 {
-            let mut squares = self.squares(tile, &rest, pilot);
+            let mut squares = self.squares(tile, [&rest, &looks], pilot);
             let by_spread = self.by_spread(tile, &squares);
-            let packets: Vec<u32> = area::pixels(tile).map(|pixel| self.packets_at(pixel)).collect();
+            let packets: Vec<u32> = area::pixels(tile).map(|pixel| self.counts_at(pixel)[0]).collect();
             let checks = Checks::new(tile, &by_spread, &packets, checks, renderer.settings.seed);
             // their first samples are allocated by the pilot, too, which makes little difference
             let weights = weights.map(LightWeights::anew);
-            let range = |pixel| [0, if checks.contains(pixel) { self.packets_at(pixel) } else { 0 }];
+            let of = |pixel, counts: [u32; 2]| if checks.contains(pixel) { counts } else { [0; 2] };
+            let range = |pixel| of(pixel, [0, self.counts_at(pixel)[0]]);
             let second = renderer.parts(tile, pilot, sets..sets + 1, weights.as_ref(), range);
+            let looks = renderer.looks(tile, sets..sets + 1, |pixel| of(pixel, self.counts_at(pixel)));
             // where a set has missed what the other has met, both tell
-            for (square, of) in squares.iter_mut().zip(&second).filter(|(_, of)| of.packets > 0) {
-                *square = 0.5 * (*square + of.square());
+            for ((squares, of), looks) in
+                squares.iter_mut().zip(&second).zip(&looks).filter(|((_, of), _)| of.packets > 0)
+            {
+                *squares = [0.5 * (squares[0] + of.square()), 0.5 * (squares[1] + both_outlines(&[of, looks]))];
             }
             let by_spread = self.by_spread(tile, &squares);
-            let mean = |(of, n): (&Statistics, &u32)| of.sums[0].map(|sum| sum / f64::from(8 * n));
-            let second: Vec<_> = second.iter().zip(&packets).map(mean).collect();
+            let none = [[0.0; 3]; 4];
+            let mean = |((pixel, of), looks): (([u32; 2], &Statistics), &Statistics)| {
+                set_sum([&none, &none], [of, looks], self.counts_at(pixel), 0)
+                    .map(|sum| sum / f64::from(8 * self.counts_at(pixel)[0]))
+            };
+            let second: Vec<_> = area::pixels(tile).zip(&second).zip(&looks).map(mean).collect();
             checks.judge(&mut pixels, &by_spread, &second, self.expected);
         }
         pixels
     }
-    /// The pixels of a tile, from `rest`, the samples after those of the pilot.
-    fn finish(&self, tile: Area, rest: &[Statistics], sets: u32) -> Vec<Pixel> {
-        let of = |(pixel, rest): ([u32; 2], &Statistics)| {
+    /// The pixels of a tile, from the samples after those of the pilot, and those that only look.
+    fn finish(&self, tile: Area, [rest, looks]: [&[Statistics]; 2], sets: u32) -> Vec<Pixel> {
+        let of = |((pixel, rest), looks): (([u32; 2], &Statistics), &Statistics)| {
             let index = self.index(pixel);
-            let count = 8 * self.packets[index];
-            let both = |(a, b): (&[f64; 3], &[f64; 3])| {
-                let sum = std::array::from_fn(|k| a[k] + b[k]);
-                (count, Moments { sum, ..Moments::default() })
+            let (counts, pilot) = (self.counts_at(pixel), [&self.pilot[index].sums, &self.pilot[index].seen]);
+            let set = |set: usize| {
+                let sum = set_sum(pilot, [rest, looks], counts, set);
+                (8 * counts[0], Moments { sum, ..Moments::default() })
             };
-            Pixel::of_sets(self.pilot[index].sums.iter().zip(&rest.sums).take(sets as usize).map(both), false)
+            Pixel::of_sets((0..sets as usize).map(set), false)
         };
-        area::pixels(tile).zip(rest).map(of).collect()
+        area::pixels(tile).zip(rest).zip(looks).map(of).collect()
     }
-    /// What each pixel of a tile tells of its variance, as [`Statistics::square`]. `rest` are the samples after those of the `pilot`, so many
-    /// packets.
-    fn squares(&self, tile: Area, rest: &[Statistics], pilot: u32) -> Vec<f64> {
-        let of = |(pixel, rest): ([u32; 2], &Statistics)| {
-            let [before, after] = [pilot, rest.packets].map(f64::from);
-            (before * f64::from(self.squares[self.index(pixel)]) + after * rest.square()) / (before + after)
+    /// What each pixel of a tile tells of its variance, as [`Statistics::square`], and what its outlines do. `rest` are the samples after
+    /// those of the `pilot`, so many packets, and `looks` those that only look.
+    fn squares(&self, tile: Area, [rest, looks]: [&[Statistics]; 2], pilot: u32) -> Vec<[f64; 2]> {
+        let of = |((pixel, rest), looks): (([u32; 2], &Statistics), &Statistics)| {
+            let [before, after, last] = [pilot, rest.packets, looks.packets].map(f64::from);
+            let [own, outline] = self.squares[self.index(pixel)].map(f64::from);
+            let (own, all) = (before * own + after * rest.square(), before + after);
+            let outline = before * outline + after * rest.outline.square() + last * looks.outline.square();
+            [own / all, outline / (all + last)]
         };
-        area::pixels(tile).zip(rest).map(of).collect()
+        area::pixels(tile).zip(rest).zip(looks).map(of).collect()
     }
     /// The variance of one set of each pixel of a tile by the spread of its samples and of those of the pixels beside it, whose edges it may
     /// have missed, but for a common factor.
-    fn by_spread(&self, tile: Area, squares: &[f64]) -> Vec<f64> {
-        let around = mean_around(squares, &vec![1.0; squares.len()], (tile[2] - tile[0]) as usize);
-        let both = |((own, around), pixel): ((f64, f64), [u32; 2])| {
-            (own + BESIDE * around) * fall(self.packets_at(pixel).into())
+    fn by_spread(&self, tile: Area, squares: &[[f64; 2]]) -> Vec<f64> {
+        let width = (tile[2] - tile[0]) as usize;
+        let around = [0, 1].map(|k| {
+            let squares: Vec<f64> = squares.iter().map(|squares| squares[k]).collect();
+            mean_around(&squares, &vec![1.0; squares.len()], width)
+        });
+        let both = |(i, pixel): (usize, [u32; 2])| {
+            let squares = [0, 1].map(|k| squares[i][k] + BESIDE * around[k][i]);
+            expected(squares, self.counts_at(pixel))
         };
-        squares.iter().copied().zip(around).zip(area::pixels(tile)).map(both).collect()
+        area::pixels(tile).enumerate().map(both).collect()
     }
 }
 
-/// Packets per set for each pixel, from the variance of the pilot; and the number of lights and their weights, if samples are allocated to
-/// at most `APART` lights.
-fn count_packets(parts: &[Statistics], width: u32, plan: &SamplePlan) -> (Vec<u32>, Option<(usize, Vec<f32>)>) {
+/// The variance that the [squares](Statistics::square) of a pixel let expect of a set, but for a common factor: of its samples, and of what the
+/// camera sees directly.
+fn expected(squares: [f64; 2], counts: [u32; 2]) -> f64 {
+    squares[0] * fall(counts[0].into()) + squares[1] * fall(counts[1].into())
+}
+
+/// The [square](Outline::square) of outlines by several ranges of samples.
+fn both_outlines(of: &[&Statistics]) -> f64 {
+    let packets: u32 = of.iter().map(|of| of.packets).sum();
+    of.iter().map(|of| f64::from(of.packets) * of.outline.square()).sum::<f64>() / f64::from(packets)
+}
+
+/// The sum of a set of a pixel: of the pilot and what the camera sees in it directly, the samples after it, and those that only look, by which
+/// the mean of the latter is replaced.
+fn set_sum(pilot: [&[[f64; 3]; 4]; 2], [rest, looks]: [&Statistics; 2], counts: [u32; 2], set: usize) -> [f64; 3] {
+    let share = f64::from(counts[0]) / f64::from(counts[1]);
+    std::array::from_fn(|k| {
+        let sum = pilot[0][set][k] + rest.sums[set][k];
+        if looks.packets == 0 {
+            return sum;
+        }
+        let seen = pilot[1][set][k] + rest.seen[set][k];
+        sum - seen + (seen + looks.seen[set][k]) * share
+    })
+}
+
+/// The number of lights to which samples are allocated, and the weight of each at each pixel.
+type Shared = (usize, Vec<f32>);
+
+/// Packets per set for each pixel, and with those that only look, from the variance of the pilot; and the number of lights and their weights,
+/// if samples are allocated to at most `APART` lights.
+fn count_packets(parts: &[Statistics], width: u32, plan: &SamplePlan) -> ([Vec<u32>; 2], Option<Shared>) {
     let (columns, lights) = (width as usize, parts[0].lights);
+    let around = |of: &dyn Fn(&Statistics) -> f64| {
+        mean_around(&parts.iter().map(of).collect::<Vec<_>>(), &vec![1.0; parts.len()], columns)
+    };
     let mut weights = None;
-    let wanted: Vec<f64> = if lights == 0 {
-        let variance: Vec<_> = parts.iter().map(|part| part.variance).collect();
-        mean_around(&variance, &vec![1.0; parts.len()], columns).into_iter().map(|v| pow(v, POWER)).collect()
+    let own: Vec<f64> = if lights == 0 {
+        around(&|part| part.variance)
     } else {
         // the error of each light falls with its own samples: the least Σ cᵢ nᵢ^−1.5 over the lights is (Σ cᵢ^0.4)^2.5 n^−1.5
         let mut of = vec![0.0; parts.len() * lights];
@@ -214,46 +276,63 @@ fn count_packets(parts: &[Statistics], width: u32, plan: &SamplePlan) -> (Vec<u3
                 of[k] = pow(mean, POWER) as f32;
             }
         }
-        // the error of what the camera sees directly falls with all samples
-        let seen: Vec<_> = parts.iter().map(|part| 16.0 * part.variance).collect();
+        // the error of what is known falls with all samples
         let reflected = of.chunks(lights).map(|each| each.iter().map(|&w| f64::from(w)).sum::<f64>());
-        let both = |(w, seen): (f64, f64)| pow(pow(w, 1.0 / POWER) + seen, POWER);
-        let sums = reflected.zip(mean_around(&seen, &vec![1.0; parts.len()], columns)).map(both).collect();
+        let both = |(w, known): (f64, f64)| pow(w, 1.0 / POWER) + known;
+        let sums = reflected.zip(around(&|part| 16.0 * part.variance)).map(both).collect();
         weights = Some((lights, of));
         sums
     };
+    let scale = if lights == 0 { 1.0 } else { 16.0 };
+    let outlines = around(&|part| scale * part.outline.variance);
+    let wanted: Vec<_> = own.into_iter().zip(outlines).map(|(own, outlines)| wanted(own, outlines)).collect();
     (share_out(&wanted, columns, plan), weights)
 }
 
-/// Packets per set for each pixel in proportion to what it `wants`, with the same mean for the pixels of each colour.
-fn share_out(wanted: &[f64], columns: usize, plan: &SamplePlan) -> Vec<u32> {
+/// The numbers of samples, and of these and those that only look, in proportion, for which the squared error is least for a given time: `own`
+/// falls with the former, and `outlines` with the latter.
+fn wanted(own: f64, outlines: f64) -> [f64; 2] {
+    // Σ c n^−1.5 is least for a given Σ t n with n ∝ (c/t)^0.4: a sample that does more than look takes the rest of the time
+    let apart = [own / (1.0 - LOOK), outlines / LOOK].map(|c| pow(c, POWER));
+    if apart[0] < apart[1] && outlines > 0.0 { apart } else { [pow(own + outlines, POWER); 2] }
+}
+
+/// Packets per set for each pixel in proportion to what it `wants`, with the same time for the pixels of each colour.
+fn share_out(wanted: &[[f64; 2]], columns: usize, plan: &SamplePlan) -> [Vec<u32>; 2] {
     let most = (PART_OF_ALL * plan.packets * wanted.len() as f64).max(TIMES_MEAN * plan.packets);
-    let mut packets = vec![0; wanted.len()];
+    let mut packets = [0; 2].map(|_: u32| vec![0; wanted.len()]);
     for colour in 0..COLOURS * COLOURS {
         let is_own = |i: &usize| i % columns % COLOURS + i / columns % COLOURS * COLOURS == colour;
         let own: Vec<usize> = (0..wanted.len()).filter(is_own).collect();
         let scaled = scaled(&own.iter().map(|&i| wanted[i]).collect::<Vec<_>>(), most, plan);
         for (n, i) in own.into_iter().enumerate() {
-            packets[i] = match &scaled {
-                Some(scaled) => rounded(i, scaled[n]),
-                None => (plan.packets.round() as u32).max(plan.pilot),
+            let [samples, looks] = match &scaled {
+                Some(scaled) => {
+                    let [samples, looks] = scaled[n];
+                    // drawn apart
+                    [rounded(i, samples), rounded(if looks > samples { i + wanted.len() } else { i }, looks)]
+                }
+                None => [(plan.packets.round() as u32).max(plan.pilot); 2],
             };
+            (packets[0][i], packets[1][i]) = (samples, looks.max(samples));
         }
     }
     packets
 }
 
-/// Packets of the pixels of a colour in proportion to what they want, at least those of the pilot and at `most` so many, so that their mean is
-/// that of the plan. `None` where no pixel has variance, or more than numbers can tell.
-fn scaled(wanted: &[f64], most: f64, plan: &SamplePlan) -> Option<Vec<f64>> {
+/// Packets of the pixels of a colour in proportion to what they want, at least those of the pilot and at `most` so many, so that the mean of
+/// their time is that of the plan. `None` where no pixel has variance, or more than numbers can tell.
+fn scaled(wanted: &[[f64; 2]], most: f64, plan: &SamplePlan) -> Option<Vec<[f64; 2]>> {
     let (pilot, total) = (f64::from(plan.pilot), plan.packets * wanted.len() as f64);
-    let greatest = wanted.iter().fold(0.0_f64, |m, &w| m.max(w));
+    let greatest = wanted.iter().fold(0.0_f64, |m, [a, b]| m.max(*a).max(*b));
     if greatest <= 0.0 || !greatest.is_finite() {
         return None;
     }
     let least = WANTED_LAST * greatest;
-    let packets = |wanted: f64, scale: f64| (wanted.max(least) * scale).min(most).max(pilot);
-    let spent = |scale: f64| wanted.iter().map(|&w| packets(w, scale)).sum::<f64>();
+    let packets = |wanted: [f64; 2], scale: f64| wanted.map(|wanted| (wanted.max(least) * scale).min(most).max(pilot));
+    // a look takes its part of the time of a sample
+    let time = |[samples, looks]: [f64; 2]| samples + (looks - samples) * LOOK;
+    let spent = |scale: f64| wanted.iter().map(|&w| time(packets(w, scale))).sum::<f64>();
     let (mut low, mut high) = (0.0, total / greatest);
     while spent(high) < total {
         high *= 2.0;

@@ -4,22 +4,26 @@ use super::light_weights::APART;
 use crate::choose::allocation::Allocated;
 use crate::film::sums::{Adder, Moments, Sum};
 use crate::film::{Accumulator, Pixel, channels};
-use crate::packet::V8;
-use etendue::Real;
+use crate::packet::{V8, X8};
 use etendue::estimate::Welford;
+use etendue::{Mask, Real};
 
 /// Statistics of a range of the samples of a pixel.
 #[derive(Clone, Copy)]
 pub(super) struct Statistics {
     /// Sum of each set.
     pub(super) sums: [[f64; 3]; 4],
+    /// Sum of each set of what the camera sees directly: the radiance of lights and of the sky.
+    pub(super) seen: [[f64; 3]; 4],
     /// Packets in each set.
     pub(super) packets: u32,
-    /// Variance of the means of four samples each, summed over the channels; for samples that are allocated to at most `APART` lights, of
-    /// what the camera sees directly.
+    /// Variance of the means of four samples each, summed over the channels, without what the camera sees directly; for samples that are
+    /// allocated to at most `APART` lights, of what is known without samples of lights.
     pub(super) variance: f64,
     /// The part of the samples that cause the variance: 1 if all differ alike, 1/n if one of n does.
     pub(super) part: f32,
+    /// The variance of what the camera sees directly, and its part.
+    pub(super) outline: Outline,
     /// Number of lights to which the samples were allocated; 0 if they were not, or if there are more than `APART`.
     pub(super) lights: usize,
     /// Σ(xᵢ−xᵢ₊₁)² over pairs of successive samples of each light, per set.
@@ -30,11 +34,33 @@ pub(super) struct Statistics {
     pub(super) taken: [u32; APART],
 }
 
+/// What the camera sees directly in a pixel: lights and the sky, whose outlines are most of its variance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Outline {
+    /// Variance of the means of four samples each, summed over the channels.
+    pub(super) variance: f64,
+    /// The part of the samples that cause it.
+    pub(super) part: f32,
+}
+
+impl Default for Outline {
+    fn default() -> Self {
+        Self { variance: 0.0, part: 1.0 }
+    }
+}
+
+impl Outline {
+    /// As [`Statistics::square`].
+    pub(super) fn square(&self) -> f64 {
+        16.0 * self.variance / f64::from(self.part).sqrt()
+    }
+}
+
 impl Default for Statistics {
     fn default() -> Self {
-        let none = [0; APART];
-        let (sums, spread) = ([[0.0; 3]; 4], [0.0; APART]);
-        Self { sums, packets: 0, variance: 0.0, part: 1.0, lights: 0, spread, pairs: none, taken: none }
+        let (none, outline) = ([0; APART], Outline::default());
+        let ([sums, seen], spread) = ([[[0.0; 3]; 4]; 2], [0.0; APART]);
+        Self { sums, seen, packets: 0, variance: 0.0, part: 1.0, outline, lights: 0, spread, pairs: none, taken: none }
     }
 }
 
@@ -45,7 +71,8 @@ impl Statistics {
         let sets = if self.packets > 0 { sets as usize } else { 0 };
         Pixel::of_sets(self.sums.iter().take(sets).map(set), false)
     }
-    /// The squared difference of two successive samples, or what has the same effect, over the root of the [part](Self::part) that causes it:
+    /// Without what the camera sees directly, the squared difference of two successive samples, or what has the same effect, over the root of
+    /// the [part](Self::part) that causes it:
     /// a set of n samples has a variance that is about proportional to this and to n^−1.5. (Where one sample of n has met something, the
     /// others tell it from nothing, and the variance is that of independent samples; where h of them have, only its outline is left to
     /// chance, and the variance is less by √h.)
@@ -71,12 +98,14 @@ pub(super) struct StatisticsSum {
     /// Number of lights to which the samples are allocated; 0 if they are not.
     lights: usize,
     adder: Adder<Sum>,
+    /// Sets that have begun, and packets of the last whose samples have seen nothing directly so far.
+    sets: usize,
+    blank: u32,
     part: Statistics,
-    halves: [Welford<f64>; 3],
+    halves: Halves,
+    seen_halves: Halves,
     /// Sum of squared differences of successive samples of the same light.
     between: f64,
-    /// Sum, greatest and number of all squared differences.
-    squares: [f64; 3],
     /// The sum of reflected light for each light, times its squared share.
     spread: [f64; APART],
     /// Number of pairs in these sums, and of samples, of each light.
@@ -84,14 +113,66 @@ pub(super) struct StatisticsSum {
     samples: [u32; APART],
 }
 
-impl StatisticsSum {
-    pub(super) fn new(lights: usize) -> Self {
-        Self { lights, ..Self::default() }
+/// The means of four samples each, and which of them cause their variance.
+#[derive(Clone, Default)]
+struct Halves {
+    means: [Welford<f64>; 3],
+    /// Sum, greatest and number of all squared differences.
+    squares: [f64; 3],
+}
+
+impl Halves {
+    fn push(&mut self, radiance: V8) {
+        for half in halves(radiance) {
+            let mut square = 0.0;
+            for (spread, x) in self.means.iter_mut().zip(half) {
+                let known = spread.count();
+                // in the unit of a difference of two samples, and so that the squares sum up to those from the mean
+                square += 16.0 * (x - spread.mean()).powi(2) * known / (known + 1.0);
+                spread.push(x);
+            }
+            self.note(square);
+        }
     }
     /// Notes a squared difference.
     fn note(&mut self, square: f64) {
         let [sum, greatest, count] = &mut self.squares;
         (*sum, *greatest, *count) = (*sum + square, greatest.max(square), *count + 1.0);
+    }
+    fn is_new(&self) -> bool {
+        self.squares[2] == 0.0
+    }
+    /// 0 without any.
+    fn variance(&self) -> f64 {
+        if self.is_new() {
+            return 0.0;
+        }
+        self.means.iter().map(|b| b.variance()).sum()
+    }
+    fn part(&self) -> f32 {
+        let [sum, greatest, count] = self.squares;
+        if greatest > 0.0 { (sum / (greatest * count)).clamp(1.0 / count, 1.0) as f32 } else { 1.0 }
+    }
+}
+
+impl StatisticsSum {
+    pub(super) fn new(lights: usize) -> Self {
+        Self { lights, ..Self::default() }
+    }
+    /// Notes what eight samples see directly, which is nothing in most pixels.
+    #[inline]
+    fn look(&mut self, seen: V8) {
+        if self.seen_halves.is_new() && !seen.max_abs().gt(X8::lit(0.0)).any() {
+            self.blank += 1;
+            return;
+        }
+        for _ in 0..std::mem::take(&mut self.blank) {
+            self.seen_halves.push(V8::default());
+        }
+        self.seen_halves.push(seen);
+        for (sum, lanes) in self.part.seen[self.sets - 1].iter_mut().zip(channels(seen)) {
+            *sum += lanes.iter().copied().map(f64::from).sum::<f64>();
+        }
     }
 }
 
@@ -100,27 +181,20 @@ impl Accumulator for StatisticsSum {
 
     fn begin(&mut self, first: u32) {
         self.adder.begin(first);
+        self.sets += 1;
     }
-    fn push_packet(&mut self, radiance: V8, seen: V8, allocated: Option<&Allocated<'_>>) {
+    fn push_packet(&mut self, radiance: V8, [seen, known]: [V8; 2], allocated: Option<&Allocated<'_>>) {
         self.adder.push_octet(&channels(radiance));
+        self.look(seen);
         // the samples of a packet that is shared among lights differ by their lights: only what does not depend on them is compared
-        for half in halves(if allocated.is_some() { seen } else { radiance }) {
-            let mut square = 0.0;
-            for (spread, x) in self.halves.iter_mut().zip(half) {
-                let known = spread.count();
-                // in the unit of a difference of two samples, and so that the squares sum up to those from the mean
-                square += 16.0 * (x - spread.mean()).powi(2) * known / (known + 1.0);
-                spread.push(x);
-            }
-            self.note(square);
-        }
+        self.halves.push(if allocated.is_some() { known } else { radiance - seen });
         let Some(allocated) = allocated else { return };
         let (light, share) = (allocated.light.to_array(), allocated.share.to_array());
+        let reflected = radiance - (seen + known);
         let square = |v: V8, k: usize| {
             let [a, b] = [k, k + 1].map(|k| v.lane(k));
             [a.x - b.x, a.y - b.y, a.z - b.z].into_iter().map(|d| f64::from(d).powi(2)).sum::<f64>()
         };
-        let reflected = radiance - seen;
         for k in [0, 2, 4, 6] {
             if light[k] != light[k + 1] {
                 continue;
@@ -128,7 +202,7 @@ impl Accumulator for StatisticsSum {
             let square = square(reflected, k);
             self.between += square;
             let weighted = square * f64::from(share[k]).powi(2);
-            self.note(weighted);
+            self.halves.note(weighted);
             if let Some(spread) = self.spread.get_mut(light[k] as usize) {
                 *spread += weighted;
                 self.pairs[light[k] as usize] += 1;
@@ -151,9 +225,8 @@ impl Accumulator for StatisticsSum {
         }
         let sets = all.len().max(1) as u32;
         all.clear();
-        part.variance = self.halves.iter().map(|b| b.variance()).sum();
-        let [sum, greatest, count] = self.squares;
-        part.part = if greatest > 0.0 { (sum / (greatest * count)).clamp(1.0 / count, 1.0) as f32 } else { 1.0 };
+        (part.variance, part.part) = (self.halves.variance(), self.halves.part());
+        part.outline = Outline { variance: self.seen_halves.variance(), part: self.seen_halves.part() };
         if self.lights > APART && part.packets > 0 {
             // a difference of two samples has 16 times the variance of the mean of four
             part.variance += self.between / f64::from(16 * 4 * part.packets * sets);
@@ -198,7 +271,7 @@ mod tests {
             sum.begin(0);
             for n in 0..2 {
                 let sample = |k: usize| [k as f32, (k * k) as f32, (set * 2 + n) as f32 * 3.0 + k as f32 % 2.0];
-                sum.push_packet(packet(sample), packet(|_| [100.0; 3]), None);
+                sum.push_packet(packet(sample), [packet(|_| [0.0; 3]); 2], None);
                 for first in [0, 4] {
                     for (channel, means) in means.iter_mut().enumerate() {
                         means.push((first..first + 4).map(|k| f64::from(sample(k)[channel])).sum::<f64>() / 4.0);
@@ -217,8 +290,27 @@ mod tests {
         assert_eq!(found.sums[1], [56.0, 280.0, 8.0 * (6.0 + 9.0) + 8.0]);
         // and the next pixel begins anew
         sum.begin(0);
-        sum.push_packet(packet(|_| [1.0; 3]), packet(|_| [0.0; 3]), None);
+        sum.push_packet(packet(|_| [1.0; 3]), [packet(|_| [0.0; 3]); 2], None);
         assert_eq!(sum.finish().variance, 0.0);
+    }
+    /// What is seen directly has a variance and sums of its own, and none in the rest: also if it is first seen in a later packet.
+    #[test]
+    fn outlines_are_told_apart() {
+        let seen = |n: usize| packet(move |k| if n == 2 || n > 2 && k < 4 { [4.0, 2.0, 0.0] } else { [0.0; 3] });
+        let rest = |n: usize| packet(move |k| [(k + n) as f32; 3]);
+        let (mut sum, mut blank) = (StatisticsSum::new(0), StatisticsSum::new(0));
+        [&mut sum, &mut blank].into_iter().for_each(|sum| sum.begin(0));
+        for n in 0..4 {
+            sum.push_packet(rest(n) + seen(n), [seen(n), V8::default()], None);
+            blank.push_packet(rest(n), [V8::default(); 2], None);
+        }
+        let (found, blank) = (sum.finish(), blank.finish());
+        assert_eq!((found.variance, found.part), (blank.variance, blank.part));
+        assert_eq!(blank.outline, Outline::default());
+        assert_eq!(found.seen[0], [12.0 * 4.0, 12.0 * 2.0, 0.0]);
+        // of eight means of four samples, three are 4 and 2: 8/7 · 3/8 · 5/8 · (16 + 4)
+        let expected = 8.0 / 7.0 * 15.0 / 64.0 * 20.0;
+        assert!((found.outline.variance / expected - 1.0).abs() < 1e-14, "{}", found.outline.variance);
     }
     /// Allocated samples are compared in pairs of the same light, times its squared share, without what the camera sees.
     #[test]
@@ -243,7 +335,7 @@ mod tests {
         let mut sum = StatisticsSum::new(2);
         for _ in 0..2 {
             sum.begin(0);
-            sum.push_packet(packet(both), packet(seen), Some(&allocated));
+            sum.push_packet(packet(both), [packet(|_| [0.0; 3]), packet(seen)], Some(&allocated));
         }
         let found = sum.finish();
         assert_eq!(found.lights, 2);
@@ -257,7 +349,7 @@ mod tests {
         let mut sum = StatisticsSum::new(APART + 1);
         for _ in 0..2 {
             sum.begin(0);
-            sum.push_packet(packet(both), packet(seen), Some(&allocated));
+            sum.push_packet(packet(both), [packet(|_| [0.0; 3]), packet(seen)], Some(&allocated));
         }
         let squares: f64 = [0, 2, 4, 6]
             .into_iter()
@@ -281,7 +373,7 @@ mod tests {
                     let half = 2 * n + k / 4;
                     [if k.is_multiple_of(4) && (half * hits).is_multiple_of(16) { 1.0 } else { 0.0 }; 3]
                 };
-                sum.push_packet(packet(sample), packet(|_| [0.0; 3]), None);
+                sum.push_packet(packet(sample), [packet(|_| [0.0; 3]); 2], None);
             }
             let found = sum.finish();
             // of 16 means, all the same have no variance

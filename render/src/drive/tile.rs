@@ -44,6 +44,8 @@ pub(super) struct TileRenderer<'a> {
     /// What is foreseen of that in the tile.
     pub(super) outlook: Outlook,
     sampled: Sampled,
+    /// Whether samples only see what the camera sees directly.
+    only_looks: bool,
 }
 
 impl<'a> TileRenderer<'a> {
@@ -76,6 +78,7 @@ impl<'a> TileRenderer<'a> {
             know,
             outlook: Outlook::default(),
             sampled,
+            only_looks: false,
         }
     }
 
@@ -112,6 +115,20 @@ impl<'a> TileRenderer<'a> {
         let sum = StatisticsSum::new(weights.map_or(allocated, |weights| weights.lights));
         let range = |pixel, set| if sets.contains(&set) { range(pixel).map(|packet| 8 * packet) } else { [0; 2] };
         self.samples(area, [0, 8 * pilot], sets.end, weights, sum, range)
+    }
+
+    /// The same for what the camera sees directly alone, without samples of lights.
+    pub(super) fn looks(
+        &mut self,
+        area: Area,
+        sets: Range<u32>,
+        range: impl Fn([u32; 2]) -> [u32; 2],
+    ) -> Vec<Statistics> {
+        self.only_looks = true;
+        let range = |pixel, set| if sets.contains(&set) { range(pixel).map(|packet| 8 * packet) } else { [0; 2] };
+        let found = self.samples(area, [0; 2], sets.end, None, StatisticsSum::new(0), range);
+        self.only_looks = false;
+        found
     }
 
     /// Prepares for the pixels of a tile: counts positions near it, and looks at an 8 × 8 grid of places in it, to decide where certificates are
@@ -217,7 +234,7 @@ impl<'a> TileRenderer<'a> {
                     sum.begin(run.next);
                 }
                 if count == 8 && run.next.is_multiple_of(8) {
-                    sum.push_packet(radiance.total(), radiance.seen + radiance.known, allocated.get(packet));
+                    sum.push_packet(radiance.total(), [radiance.seen, radiance.known], allocated.get(packet));
                 } else {
                     let total = radiance.total();
                     lanes.for_each(|lane| sum.push(total.lane(lane).into()));
@@ -239,19 +256,38 @@ impl<'a> TileRenderer<'a> {
         expected: &[u32; GROUP],
     ) -> [Radiance; GROUP] {
         let (samples, numbers) = self.numbers(packets, allocated);
-        let Self { scene, lights, chooser, camera, exposure, paths, know, ledger, outlook, sampled: rest, .. } = self;
+        let Self {
+            scene,
+            lights,
+            chooser,
+            camera,
+            exposure,
+            paths,
+            know,
+            ledger,
+            outlook,
+            sampled: rest,
+            only_looks,
+            ..
+        } = self;
         let count = packets.len();
         // follow the camera rays
         let mut active = [M8::splat(false); GROUP];
         for (p, packet) in packets.iter().enumerate() {
             paths.start(p, camera.rays(&samples[p]), packet.pixel());
             active[p] = packet.active;
-            paths.tracer.count.camera += u64::from(packet.active.bits().count_ones());
+            let count = &mut paths.tracer.count;
+            let rays = if *only_looks { &mut count.look } else { &mut count.camera };
+            *rays += u64::from(packet.active.bits().count_ones());
         }
-        paths.follow(&active[..count]);
+        if *only_looks {
+            paths.look(&active[..count]);
+        } else {
+            paths.follow(&active[..count]);
+        }
         // what is known of the lights there, and an estimate of the rest
         let [mut known, mut sampled] = [[V8::default(); GROUP]; 2];
-        if !scene.lights.is_empty() {
+        if !scene.lights.is_empty() && !*only_looks {
             paths.note_lobes(count);
             let group =
                 Group { scene, lights, chooser, points: &paths.points, count, numbers: &numbers, allocated, expected };
@@ -263,7 +299,8 @@ impl<'a> TileRenderer<'a> {
         }
         let is_plain = scene.surfaces.is_plain;
         std::array::from_fn(|p| {
-            let through = |part: V8| if is_plain { part } else { product(paths.points.ends[p].throughput, part) };
+            let through =
+                |part: V8| if is_plain || *only_looks { part } else { product(paths.points.ends[p].throughput, part) };
             let mut radiance =
                 Radiance { seen: paths.seen[p], known: through(known[p]), reflected: through(sampled[p]) };
             if let Some(open) = camera.open(&samples[p]) {
@@ -279,7 +316,7 @@ impl<'a> TileRenderer<'a> {
         let Self { lights, chooser, source, start, settings, .. } = self;
         // delta lights alone need no point on the light, but coated metals need its numbers
         let point = settings.technique.finds_lights() || !lights.only_deltas();
-        let any = point || self.scene.surfaces.has_estimates();
+        let any = (point || self.scene.surfaces.has_estimates()) && !self.only_looks;
         let own = |dimension: u32| {
             let mut pairs = [Vec2::default(); GROUP];
             pairs.iter_mut().zip(packets).for_each(|(pair, packet)| *pair = source.pair(packet, dimension));
@@ -287,8 +324,8 @@ impl<'a> TileRenderer<'a> {
         };
         let mut numbers = Numbers {
             light: [Vec2::default(); GROUP],
-            choice: chooser.needs_numbers().then(|| own(CHOICE)),
-            surface: (point && self.sampled.is_combined()).then(|| own(SURFACE)),
+            choice: (chooser.needs_numbers() && any).then(|| own(CHOICE)),
+            surface: (point && any && self.sampled.is_combined()).then(|| own(SURFACE)),
         };
         let mut samples = [CameraSample { film: Vec2::default(), lens: Vec2::default() }; GROUP];
         let start = start.map(u32x8::splat);

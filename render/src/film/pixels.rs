@@ -78,9 +78,9 @@ pub trait Accumulator {
     type Output: Clone + Default + Send;
     /// Begins successive samples of the next set, with this one.
     fn begin(&mut self, first: u32);
-    /// Adds eight samples, of which the first has an index that is a multiple of eight, with the part of their radiance that the camera
-    /// sees directly, and the lights to which they were allocated, if they were.
-    fn push_packet(&mut self, radiance: V8, seen: V8, allocated: Option<&Allocated<'_>>);
+    /// Adds eight samples, of which the first has an index that is a multiple of eight, with the parts of their radiance that the camera
+    /// sees directly, and that are known without samples of lights; and the lights to which they were allocated, if they were.
+    fn push_packet(&mut self, radiance: V8, parts: [V8; 2], allocated: Option<&Allocated<'_>>);
     /// Adds one sample.
     fn push(&mut self, radiance: [f32; 3]);
     /// Returns the pixel, and starts the next one.
@@ -138,7 +138,7 @@ impl<V: Sample> Accumulator for PixelSum<V> {
         self.0.begin(first);
     }
     #[inline]
-    fn push_packet(&mut self, radiance: V8, _: V8, _: Option<&Allocated<'_>>) {
+    fn push_packet(&mut self, radiance: V8, _: [V8; 2], _: Option<&Allocated<'_>>) {
         self.0.push_octet(&channels(radiance));
     }
     #[inline]

@@ -1,6 +1,7 @@
 //! Numbers of samples, weights of lights and variances, by definition.
 
 use super::super::corners::packets_for;
+use super::super::pixel_statistics::Outline;
 use super::*;
 use crate::sampler::Sampler;
 use crate::technique::Technique;
@@ -96,7 +97,7 @@ fn two_halves_of_an_image_share_its_samples() {
     assert!((plan.checks, plan.pilot) == (1.0 / 48.0, 2) && (plan.packets - 7.84).abs() < 0.01, "{plan:?}");
     let variance = |i: usize| if i % 64 < 32 { 0.01 } else { 1.0 };
     let parts: Vec<_> = (0..64 * 64).map(|i| Statistics { variance: variance(i), ..Statistics::default() }).collect();
-    let (packets, _) = count_packets(&parts, 64, &plan);
+    let ([packets, _], _) = count_packets(&parts, 64, &plan);
     let [dark, bright] = [OUTERMOST..32 - OUTERMOST, 32 + OUTERMOST..64 - OUTERMOST].map(|columns| {
         packets.iter().enumerate().filter(|(i, _)| columns.contains(&(i % 64))).map(|(_, &n)| n).collect::<Vec<_>>()
     });
@@ -110,7 +111,7 @@ fn two_halves_of_an_image_share_its_samples() {
 fn numbers_follow_the_variance_around() {
     let variance = |i: usize| if i % 64 < 32 { 1.0 } else { 32.0 };
     let parts: Vec<_> = (0..64 * 64).map(|i| Statistics { variance: variance(i), ..Statistics::default() }).collect();
-    let (packets, _) = count_packets(&parts, 64, &plan(1, 2, 100.0));
+    let ([packets, _], _) = count_packets(&parts, 64, &plan(1, 2, 100.0));
     assert!((average(&packets) / 100.0 - 1.0).abs() < 0.02, "{}", average(&packets));
     // away from the border by more than the far neighbours
     let columns = |from: usize, to: usize| -> Vec<u32> {
@@ -131,7 +132,7 @@ fn infinite_variance_gets_equal_numbers() {
         ..Statistics::default()
     };
     for parts in [vec![of_light; WIDTH * HEIGHT], pilot(|i| if i == 40 { f64::INFINITY } else { 1.0 })] {
-        let (packets, _) = count_packets(&parts, WIDTH as u32, &plan(1, 2, 16.0));
+        let ([packets, _], _) = count_packets(&parts, WIDTH as u32, &plan(1, 2, 16.0));
         assert!(packets.iter().all(|&packets| packets == 16));
     }
 }
@@ -139,12 +140,12 @@ fn infinite_variance_gets_equal_numbers() {
 fn equal_variance_gets_equal_numbers() {
     let plan = plan(1, 2, 16.0);
     for variance in [0.0, 3.0] {
-        let (packets, weights) = count_packets(&pilot(|_| variance), WIDTH as u32, &plan);
+        let ([packets, _], weights) = count_packets(&pilot(|_| variance), WIDTH as u32, &plan);
         assert!(packets.iter().all(|&n| n == 16), "{packets:?}");
         assert!(weights.is_none());
     }
     // without variance, never less than the pilot
-    let (packets, _) = count_packets(&pilot(|_| 0.0), WIDTH as u32, &self::plan(1, 2, 1.3));
+    let ([packets, _], _) = count_packets(&pilot(|_| 0.0), WIDTH as u32, &self::plan(1, 2, 1.3));
     assert!(packets.iter().all(|&n| n == 2));
 }
 /// Weights of lights are the power 0.4 of the mean square of differences around, and numbers that of (Σ weight)^2.5, and what the
@@ -160,7 +161,8 @@ fn lights_are_weighted_by_their_spread() {
     let side = 64;
     let (sets, seen) = (2, (15.0_f64.powf(2.5) - 5.0_f64.powf(2.5)) / 16.0);
     let parts: Vec<_> = (0..side * side).map(|i| part(if i % side < side / 2 { 0.0 } else { seen })).collect();
-    let (packets, weights) = count_packets(&parts, side as u32, &plan(sets, 2, 100.0));
+    let ([packets, looks], weights) = count_packets(&parts, side as u32, &plan(sets, 2, 100.0));
+    assert_eq!(packets, looks);
     let (lights, weights) = weights.unwrap();
     assert_eq!(lights, 3);
     for own in weights.chunks(3) {
@@ -181,6 +183,7 @@ fn no_count_depends_on_the_samples_of_its_pixel() {
     for lights in [0, 3] {
         let part = |i: usize, scale: f32| Statistics {
             variance: f64::from(random(i, 0) * scale),
+            outline: Outline { variance: f64::from(random(i, 20) * scale), part: 1.0 },
             lights,
             spread: std::array::from_fn(|k| if k < lights { random(i, 1 + k) * scale } else { 0.0 }),
             pairs: std::array::from_fn(|k| if k < lights { (random(i, 9 + k) * 4.0) as u32 } else { 0 }),
@@ -188,8 +191,8 @@ fn no_count_depends_on_the_samples_of_its_pixel() {
         };
         let parts: Vec<_> = (0..WIDTH * HEIGHT).map(|i| part(i, 1.0)).collect();
         let of = |parts: &[Statistics], i: usize| {
-            let (packets, weights) = count_packets(parts, WIDTH as u32, &plan(1, 2, 16.0));
-            (packets[i], weights.map(|(lights, of)| of[i * lights..][..lights].to_vec()), packets)
+            let ([packets, looks], weights) = count_packets(parts, WIDTH as u32, &plan(1, 2, 16.0));
+            ([packets[i], looks[i]], weights.map(|(lights, of)| of[i * lights..][..lights].to_vec()), [packets, looks])
         };
         let mut others_change = false;
         for i in 0..parts.len() {
@@ -214,7 +217,7 @@ fn one_speck_does_not_take_all_samples() {
         let variance = |i: usize| if i == 20 * side + 31 { 1e12 } else { noise };
         let parts: Vec<_> =
             (0..side * side).map(|i| Statistics { variance: variance(i), ..Statistics::default() }).collect();
-        let (packets, _) = count_packets(&parts, side as u32, &plan(1, 2, mean));
+        let ([packets, _], _) = count_packets(&parts, side as u32, &plan(1, 2, mean));
         let all = packets.iter().copied().map(f64::from).sum::<f64>() / (side * side) as f64;
         assert!((all / mean - 1.0).abs() < 0.1, "{all}");
         let greatest = f64::from(*packets.iter().max().unwrap());
@@ -223,4 +226,66 @@ fn one_speck_does_not_take_all_samples() {
         sorted.sort_unstable();
         assert!(f64::from(sorted[side * side / 2]) >= 0.5 * mean, "{}", sorted[side * side / 2]);
     }
+}
+
+/// Of all numbers of samples and looks that take the same time, those that are wanted have the least error.
+#[test]
+fn wanted_numbers_have_the_least_error() {
+    let time = |[samples, looks]: [f64; 2]| samples + (looks - samples) * LOOK;
+    for (own, outlines) in [(1.0, 0.0), (1.0, 0.3), (1.0, 1.0), (1.0, 30.0), (0.0, 2.0), (1e-6, 1.0)] {
+        let error = |n: [f64; 2]| {
+            let scale = 1.0 / time(n);
+            own * (n[0] * scale).powf(-1.5) + outlines * (n[1] * scale).powf(-1.5)
+        };
+        let wanted = wanted(own, outlines).map(|n: f64| n.max(1e-3));
+        assert!(wanted[0] <= wanted[1], "{own}, {outlines}: {wanted:?}");
+        for ratio in [1.0, 1.01, 1.1, 2.0, 5.0, 20.0] {
+            let other = [wanted[1] / ratio, wanted[1]];
+            assert!(error(wanted) <= error(other) * (1.0 + 1e-9), "{own}, {outlines}: {wanted:?} and {other:?}");
+        }
+    }
+}
+
+/// Where outlines of lights are all of the variance of some pixels, looks take the time, and no other pixel has any.
+#[test]
+fn outlines_take_looks() {
+    let (side, mean) = (64, 16.0);
+    let is_outline = |i: usize| (24..40).contains(&(i % side));
+    let part = |i: usize| Statistics {
+        variance: 1e-4,
+        outline: Outline { variance: if is_outline(i) { 0.01 } else { 0.0 }, part: 1.0 },
+        ..Statistics::default()
+    };
+    let parts: Vec<_> = (0..side * side).map(part).collect();
+    let ([packets, looks], _) = count_packets(&parts, side as u32, &plan(1, 2, mean));
+    let beside = |i: usize| (24 - OUTERMOST..40 + OUTERMOST).contains(&(i % side));
+    assert!((0..side * side).all(|i| packets[i] <= looks[i] && (beside(i) || packets[i] == looks[i])));
+    let of = |counts: &[u32]| {
+        let own = counts.iter().enumerate().filter(|(i, _)| (30..34).contains(&(i % side)));
+        own.map(|(_, &n)| f64::from(n)).sum::<f64>() / (4 * side) as f64
+    };
+    // in the ratio of (10² (1 − LOOK) / LOOK)^0.4
+    let ratio = of(&looks) / of(&packets);
+    let expected = (1e2 * (1.0 - LOOK) / LOOK).powf(POWER);
+    assert!((0.95..1.05).contains(&(ratio / expected)), "{ratio} instead of {expected}");
+    let time = (1.0 - LOOK) * average(&packets) + LOOK * average(&looks);
+    assert!((time / mean - 1.0).abs() < 0.02, "{time}");
+}
+
+/// A pixel is the mean of what surfaces reflect over its samples, and of what is seen directly over all rays that look.
+#[test]
+fn pixels_are_sums_of_two_means() {
+    let of = |packets: u32, sum: f64, seen: f64| Statistics {
+        packets,
+        sums: [[sum; 3]; 4],
+        seen: [[seen; 3]; 4],
+        ..Statistics::default()
+    };
+    // 2 packets of a pilot, 2 of the rest and 12 that look
+    let (pilot, rest, looks) = (of(2, 5.0, 3.0), of(2, 4.0, 1.0), of(12, 20.0, 20.0));
+    let sum = set_sum([&pilot.sums, &pilot.seen], [&rest, &looks], [4, 16], 1);
+    let expected = (5.0 - 3.0 + 4.0 - 1.0) + (3.0 + 1.0 + 20.0) * 4.0 / 16.0;
+    assert_eq!(sum, [expected; 3]);
+    let none = Statistics::default();
+    assert_eq!(set_sum([&pilot.sums, &pilot.seen], [&rest, &none], [4, 4], 0), [9.0; 3]);
 }
