@@ -80,8 +80,9 @@ struct Truth {
 }
 
 impl Truth {
-    fn new(world: &World, [width, height]: [u32; 2]) -> Self {
-        let (spp, technique, sampler) = (FINER * SPP, Technique::MisPower, Sampler::Adaptive);
+    /// By the rule: the error of what samples where others compute would hide theirs.
+    fn new(world: &World, rule: Technique, [width, height]: [u32; 2]) -> Self {
+        let (spp, technique, sampler) = (FINER * SPP, rule, Sampler::Adaptive);
         let settings = Settings { width, height, spp, technique, sampler, seed: 1 << 40, ..Settings::DEFAULT };
         let (film, _) = world.render(&settings, &|_| ());
         let own = film.pixels.iter().flat_map(|p| p.variance).map(f64::from).sum::<f64>();
@@ -139,7 +140,7 @@ fn measure(name: &str, scene: &Scene) -> Option<[f64; 2]> {
     let rule = world.view(&auto).technique();
     let small = std::iter::once(Settings { technique: rule, ..auto }).chain(settings(scene, [width, height]));
     let small: Vec<Settings> = small.filter(|settings| world.check(settings).is_ok()).collect();
-    let small = images(&world, &small, &Truth::new(&world, [width, height]), 1);
+    let small = images(&world, &small, &Truth::new(&world, rule, [width, height]), 1);
     let most = small.iter().map(Taken::efficiency).fold(0.0, f64::max);
     let always = [Technique::Auto, Technique::Analytic, rule];
     let is_kept = |one: &&Taken| {
@@ -148,7 +149,7 @@ fn measure(name: &str, scene: &Scene) -> Option<[f64; 2]> {
     };
     let kept: Vec<Settings> =
         small.iter().filter(is_kept).map(|one| Settings { width: size[0], height: size[1], ..one.settings }).collect();
-    let truth = Truth::new(&world, size);
+    let truth = Truth::new(&world, rule, size);
     let all = images(&world, &kept, &truth, TURNS);
     let best = all.iter().map(Taken::efficiency).fold(0.0, f64::max);
     let mean = truth.film.mean().iter().sum::<f64>() / 3.0;

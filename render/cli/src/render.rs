@@ -30,7 +30,7 @@ pub(crate) struct Options {
     /// Write the image to this EXR file, and a PNG beside it [default: the scene's film filename, or SCENE.exr]
     #[arg(short, long, value_name = "OUT.exr")]
     output: Option<PathBuf>,
-    /// Refine the image until this many seconds have passed since the start of the first pass
+    /// Refine the image until this many seconds have passed, those of the trial of `auto` included
     #[arg(long, value_name = "SECONDS", value_parser = seconds, conflicts_with_all = ["spp", "repeat"])]
     time: Option<f64>,
     /// Refine the image until its estimated error (relative RMS) is at most this, such as 0.01 or 1%
@@ -94,7 +94,7 @@ struct Image {
     sets: u32,
     /// Whether there are several, so that there is a variance.
     has_sets: bool,
-    /// Seconds of each repetition.
+    /// Seconds of each repetition; with a goal, those of the trial of `auto`, too.
     seconds: Vec<f64>,
     /// Empty unless there was a goal.
     passes: Vec<Pass>,
@@ -145,8 +145,9 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         let view = world.view(&asked);
         (*view.settings(), view.trial().copied())
     });
-    let trial = trial.map(|trial| (trial, start.elapsed().as_secs_f64()));
-    let plan = plan.map(|plan| Refinement { settings, ..plan });
+    let spent = start.elapsed().as_secs_f64();
+    let trial = trial.map(|trial| (trial, spent));
+    let plan = plan.map(|plan| Refinement { settings, goal: plan.goal.after(spent), ..plan });
 
     let studio = Session { world: &world, identity, settings, output: &output, interrupt: &interrupt };
     let technique = beside.as_ref().map(|beside| beside.technique);
@@ -163,8 +164,11 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
 
     let processor = processor_seconds().zip(processor).map(|(after, before)| after - before);
     let note = processor.and_then(|p| other_work(start.elapsed().as_secs_f64(), pool.current_num_threads(), p));
+    if has_goal {
+        done.seconds.iter_mut().for_each(|seconds| *seconds += spent);
+    }
     let chosen = settings.technique;
-    let times = [load, build];
+    let times = [load, build, trial.map_or(0.0, |(_, seconds)| seconds)];
     let said = if options.json {
         let object = to_json(options, &asked, chosen, &done, &output, times, pool.current_num_threads());
         writeln!(out(), "{object}")
@@ -270,7 +274,9 @@ impl Session<'_> {
     fn refine(&self, plan: &Refinement) -> Result<Image, String> {
         let pixels = u64::from(plan.settings.width) * u64::from(plan.settings.height);
         let (length, template) = match plan.goal.seconds {
-            Some(seconds) => ((seconds * 1000.0) as u64, format!("{{wide_bar}} {{elapsed}} of {seconds} s  {{msg}}")),
+            Some(seconds) => {
+                ((seconds * 1000.0) as u64, format!("{{wide_bar}} {{elapsed}} of {seconds:.2} s  {{msg}}"))
+            }
             None => (pixels, "{wide_bar} {percent:>3} % of a pass, {elapsed}  {msg}".to_owned()),
         };
         let bar = bar(length, &template);
@@ -356,7 +362,7 @@ fn to_json(
     chosen: Technique,
     image: &Image,
     output: &Output,
-    time: [f64; 2],
+    time: [f64; 3],
     threads: usize,
 ) -> Value {
     let rays = image.rays;
@@ -377,7 +383,7 @@ fn to_json(
         "sensor": options.image.sensor.name(),
         "seed": settings.seed,
         "threads": threads,
-        "seconds": { "load": time[0], "build": time[1], "render": image.seconds },
+        "seconds": { "load": time[0], "build": time[1], "trial": time[2], "render": image.seconds },
         "rays": { "camera": rays.camera, "mirror": rays.mirror, "shadow": rays.shadow, "corner": rays.corner },
         "mean": image.film.mean(),
         "error": image.error.map(|claim| claim.total()),
@@ -438,7 +444,7 @@ fn print(
     scene: &str,
     image: &Image,
     output: &Output,
-    [load, build]: [f64; 2],
+    [load, build, _]: [f64; 3],
 ) -> io::Result<()> {
     let mut out = out();
     let Film { width, height, .. } = image.film;

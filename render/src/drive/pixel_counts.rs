@@ -24,7 +24,7 @@ use libm::pow;
 
 /// The squared error falls about as N^−1.5 if a pixel's integrand is smooth except for edges. Then Σ cᵢ nᵢ^−1.5 for a given Σ nᵢ is
 /// least with nᵢ ∝ cᵢ^0.4.
-pub(super) const POWER: f64 = 0.4;
+const POWER: f64 = 0.4;
 /// Neighbours are at most this many rows and columns away.
 const NEAR: usize = 2;
 /// Pixels up to this far away have a small weight, since all near ones may have missed an edge that passes through the pixel. (This
@@ -342,6 +342,14 @@ fn scaled(wanted: &[[f64; 2]], most: f64, plan: &SamplePlan) -> Option<Vec<[f64;
         if spent(middle) < total { low = middle } else { high = middle }
     }
     Some(wanted.iter().map(|&w| packets(w, low)).collect())
+}
+
+/// The samples of places of the same size relative to their mean, if they share samples as pixels do, by the variance that each would have if
+/// they did not. `None` where no place has variance.
+pub(super) fn shares(variances: &[f64], plan: &SamplePlan) -> Option<Vec<f64>> {
+    let wanted: Vec<[f64; 2]> = variances.iter().map(|&v| [pow(v, POWER); 2]).collect();
+    let packets = scaled(&wanted, f64::INFINITY, plan)?;
+    Some(packets.into_iter().map(|[samples, _]| samples / plan.packets).collect())
 }
 
 /// Rounds to a power of two, with which Sobol points are best: down or up at random, independently of the samples.

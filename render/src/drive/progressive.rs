@@ -90,6 +90,11 @@ impl Goal {
     pub const fn option(&self) -> &'static str {
         if self.error.is_some() { "error" } else { "time" }
     }
+    /// What is left of it when so many seconds were spent before the first pass, as on a trial.
+    #[must_use]
+    pub fn after(self, spent: f64) -> Self {
+        Self { seconds: self.seconds.map(|seconds| (seconds - spent).max(0.0)), ..self }
+    }
 }
 
 impl Refinement {

@@ -1,6 +1,6 @@
 //! An image of a scene through a camera: its technique, its samples, and what is known of its lights.
 
-use super::auto::{AutoTrial, Plan, SEEDS, TechniqueChoice, Tried, best, cost};
+use super::auto::{AutoTrial, TechniqueChoice, Trial, Tried, cost};
 use super::corners::packets_for;
 use super::pixel_counts::{PixelCounts, SamplePlan};
 use super::pixel_statistics::Statistics;
@@ -76,8 +76,8 @@ impl World {
         if settings.technique != Technique::Auto {
             return view;
         }
-        let (way, trial) = view.decide();
-        View { trial, ..view.by(way, *settings) }
+        let ((technique, choice), trial) = view.decide();
+        View { trial, settings: Settings { technique, choice, ..*settings }, ..view }
     }
 
     /// Renders the image of the scene's camera, as [`View::image`] does.
@@ -109,29 +109,28 @@ impl View<'_> {
     /// What `auto` takes, and the trial that found it; without one, the rule.
     fn decide(&self) -> (TechniqueChoice, Option<AutoTrial>) {
         let ways = self.ways();
-        let Some(plan) = (if ways.len() > 1 { Plan::new(&self.settings, ways.len()) } else { None }) else {
-            return (ways[0], None);
-        };
-        let pairs = ways.iter().flat_map(|&way| plan.tiles.iter().map(move |&tile| (way, tile)));
-        let pairs: Vec<(TechniqueChoice, Area)> = pairs.collect();
-        let tried = pairs.into_par_iter().map(|(way, tile)| self.try_tile(way, tile, plan.spp));
-        best(&ways, &plan, &tried.collect::<Vec<_>>(), self.settings.sampler == Sampler::Adaptive)
+        let rule = ways[0];
+        let Some(mut trial) = Trial::new(ways, &self.settings) else { return (rule, None) };
+        loop {
+            let next = trial.next();
+            if next.is_empty() {
+                return trial.best();
+            }
+            let tried = next
+                .into_par_iter()
+                .map(|(way, tile)| (way, self.try_tile(&trial.settings(way, &self.settings), tile)));
+            for (way, tried) in tried.collect::<Vec<_>>() {
+                trial.add(way, tried);
+            }
+        }
     }
 
-    /// Renders a tile twice in one way, with so many samples per pixel.
-    fn try_tile(&self, way: TechniqueChoice, tile: Area, spp: u32) -> Tried {
-        let render = |seed: u64| {
-            let view = self.by(way, Settings { spp, seed, ..self.settings });
-            view.render(tile, &|_| ())
-        };
-        let [(first, count), (second, _)] = SEEDS.map(render);
-        let times = f64::from(self.settings.spp) / f64::from(spp);
-        Tried::new(tile, [&first, &second], cost(way, self.has_few(), &count, times))
-    }
-
-    /// The same by another way, with other settings of which the image is worth knowing the same.
-    fn by(&self, (technique, choice): TechniqueChoice, settings: Settings) -> Self {
-        Self { settings: Settings { technique, choice, ..settings }, ..*self }
+    /// Renders a tile with the settings of a trial.
+    fn try_tile(&self, settings: &Settings, tile: Area) -> Tried {
+        let view = Self { settings: *settings, ..*self };
+        let (pixels, count) = view.render(tile, &|_| ());
+        let times = f64::from(self.settings.spp) / f64::from(settings.spp);
+        Tried::new(tile, &pixels, cost((settings.technique, settings.choice), self.has_few(), &count, times))
     }
 
     /// The technique that samples the lights: the one of the settings, or the one taken for [`Technique::Auto`].

@@ -110,7 +110,7 @@ fn json_has_the_fields_that_it_should() {
     let expected = "choice chosen error height mean missed output passes pixels rays sampler scene seconds seed sensor sets spp \
                     systematic technique threads uncertain width";
     assert_eq!(keys(&report).join(" "), expected);
-    assert_eq!(keys(&report["seconds"]), ["build", "load", "render"]);
+    assert_eq!(keys(&report["seconds"]), ["build", "load", "render", "trial"]);
     assert_eq!(keys(&report["rays"]), ["camera", "corner", "mirror", "shadow"]);
     assert_eq!((&report["scene"], &report["output"]), (&Value::from("quads"), &Value::from("a.exr")));
     assert_eq!((&report["technique"], &report["sampler"]), (&Value::from("area"), &Value::from("independent")));

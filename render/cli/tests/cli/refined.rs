@@ -67,6 +67,21 @@ fn the_time_asked_for_is_kept() {
     assert!(claimed > 1e-6 && report["seconds"]["render"][0].as_f64().unwrap() < 3.0, "{report}");
 }
 
+/// The trial of `auto` is a part of the time that was asked for, and of the time that is told.
+#[test]
+fn the_trial_counts_in_the_time() {
+    let folder = Folder::new();
+    let render = ["render", "quads", "--size", "256x256", "--threads", "1", "--json"];
+    let report = |more: &[&str]| json(&folder.succeed(&[&render, more].concat()));
+    let found = report(&["--time", "0.4"]);
+    let number = |value: &Value| value.as_f64().unwrap();
+    let [trial, all] = [&found["seconds"]["trial"], &found["seconds"]["render"][0]].map(number);
+    let passes: f64 = found["passes"].as_array().unwrap().iter().map(|pass| number(&pass["seconds"])).sum();
+    assert!(trial > 0.0 && all >= trial + passes, "{found}");
+    // there is none if nothing is to be chosen
+    assert_eq!(number(&report(&["--spp", "1", "--technique", "area"])["seconds"]["trial"]), 0.0);
+}
+
 #[test]
 fn passes_do_not_depend_on_threads() {
     let folder = Folder::new();
