@@ -208,7 +208,7 @@ fn page(table: &Table, title: &str) -> String {
             "\nA whole scene, which `etendue render FILE` draws (more are in [scenes](../scenes)):\n\n```\n{SMALLEST}```\n"
         );
     } else {
-        page.push_str("\nMeshes whose material has an `emissiveFactor` are area lights; `KHR_lights_punctual` has point, spot and directional ones.\n");
+        page.push_str("\nMeshes whose material has an `emissiveFactor` are area lights; `KHR_lights_punctual` has point, spot and directional ones. An image is 1,280 pixels wide and as high as the camera's `aspectRatio` says, or 720: `--size` changes that.\n");
     }
     for Entry { name, kinds, state, note, parameters } in &table.entries {
         let kinds: String = kinds.iter().map(|kind| format!(" `\"{kind}\"`")).collect();

@@ -292,7 +292,7 @@ impl Session<'_> {
             let error =
                 known.and_then(|p| p.error).map_or_else(|| "not known yet".to_owned(), |claim| percent(claim.total()));
             bar.set_message(format!("error {error}{aim}; next {spp} spp"));
-            // a file or a pipe has no bar, and seconds later whoever waits wants to know
+            // a file or a pipe has no bar, and whoever waits there for minutes wants to know
             if bar.is_hidden() && noted.elapsed() >= NOTED {
                 noted = Instant::now();
                 say(format_args!("after {:.0} s: error {error}{aim}; next {spp} spp", began.elapsed().as_secs_f64()));
@@ -336,7 +336,7 @@ impl Session<'_> {
 }
 
 /// How often passes are noted where no bar shows them, at most.
-const NOTED: Duration = Duration::from_secs(10);
+const NOTED: Duration = Duration::from_secs(60);
 
 /// What `auto` has taken, over what, and by how much.
 fn taken(settings: &Settings, (trial, seconds): &(AutoTrial, f64)) -> String {

@@ -351,7 +351,7 @@ fn a_chart_says_how_long_it_takes_and_keeps_to_it() {
         error.starts_with("quads (") && error.contains("about ") && error.contains(", and at most 12 s"),
         "{error}"
     );
-    assert!(out.starts_with("quads: to reach 3 %, "), "{out}");
+    assert!(out.contains("quads: to reach 3 %, "), "{out}");
     // and the images that were begun, on a machine that does something else
     assert!(took < Duration::from_secs(30), "{took:?}");
 }
