@@ -76,6 +76,21 @@ fn one_lamp_is_tried_by_projected_solid_angle() {
     assert!(trial.is_rule && trial.times > 1.1, "{trial:?}");
 }
 
+/// Through a lens closed forms are not the rule, but taken where they are better: where the image has no edges.
+#[test]
+fn closed_forms_are_taken_behind_a_lens_where_they_pay() {
+    let scene = read(
+        "LookAt 0 -5 3  0 0 0  0 0 1 Camera \"perspective\" \"float fov\" 30 \"float lensradius\" .05 \"float focaldistance\" 5.8
+        WorldBegin AttributeBegin Translate 0 0 6 AreaLightSource \"diffuse\" \"rgb L\" [9 9 9] Shape \"sphere\" \"float radius\" 1
+        AttributeEnd Material \"diffuse\" \"rgb reflectance\" [.7 .7 .7]
+        Shape \"bilinearmesh\" \"point3 P\" [-20 -20 0  20 -20 0  -20 20 0  20 20 0]",
+    );
+    let world = World::new(&scene).unwrap();
+    let (technique, _, trial) = taken(&world, &LARGE);
+    assert!(technique == Technique::Analytic && trial.is_some_and(|trial| !trial.is_rule), "{technique:?} {trial:?}");
+    assert_eq!(taken(&world, &Settings { width: 64, height: 64, ..LARGE }).0, Technique::SolidAngle);
+}
+
 /// Where a trial would take more than 3 % of the samples, the rule decides, and where there is only one way, nothing does.
 #[test]
 fn small_images_take_no_trial() {
