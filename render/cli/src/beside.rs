@@ -28,20 +28,16 @@ pub(crate) struct Cost {
     pub(crate) seconds: f64,
     pub(crate) shadow_rays: u64,
     pub(crate) error: Option<Claim>,
-    /// Samples per pixel of each of its passes; none if it was rendered at once.
-    pub(crate) passes: Vec<u32>,
+    /// Samples per pixel.
+    pub(crate) spp: u64,
 }
 
 impl fmt::Display for Cost {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { technique, seconds, shadow_rays, error, passes } = self;
+        let Self { technique, seconds, spp, shadow_rays, error } = self;
         let error = error.map_or_else(|| "not known".to_owned(), |claim| percent(claim.total()));
-        write!(f, "{technique}: {seconds:.1} s, {} shadow rays, error {error}", grouped(*shadow_rays))?;
-        if passes.len() > 1 {
-            let passes = passes.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
-            write!(f, ", in passes of {passes} samples per pixel: as many at once have a smaller error")?;
-        }
-        Ok(())
+        let rays = grouped(*shadow_rays);
+        write!(f, "{technique}: {seconds:.1} s, {spp} samples per pixel, {rays} shadow rays, error {error}")
     }
 }
 
@@ -93,17 +89,6 @@ impl Beside {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn passes_are_told_where_they_count() {
-        let cost = |passes: &[u32]| {
-            let (technique, passes) = ("area".to_owned(), passes.to_vec());
-            Cost { technique, seconds: 1.0, shadow_rays: 1000, error: None, passes }.to_string()
-        };
-        assert_eq!(cost(&[16]), "area: 1.0 s, 1,000 shadow rays, error not known");
-        let said = ", in passes of 16, 8 samples per pixel: as many at once have a smaller error";
-        assert_eq!(cost(&[16, 8]), cost(&[]) + said);
-    }
 
     #[test]
     fn other_work_is_noted() {

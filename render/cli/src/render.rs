@@ -15,7 +15,7 @@ use etendue_render::drive::AutoTrial;
 use etendue_render::drive::progressive::{self, Goal, Pass, Progress, Refinement};
 use etendue_render::film::Film;
 use etendue_render::film::claim::{Claim, why_unknown};
-use etendue_render::sampler::reports_variance;
+use etendue_render::sampler::{default_sampler, reports_variance};
 use etendue_render::{ChoiceBy, Identity, RayCount, Sampler, Sensor, Settings, Technique, World};
 use serde_json::{Value, json};
 use std::error::Error;
@@ -177,8 +177,8 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
         print(options, &title(asked.technique, chosen), &scene.name, &done, &output, times)
     };
     said.map_err(|error| output.were_written(&error))?;
-    if let (Some(beside), Some(other)) = (beside, other) {
-        show_beside(&beside, other, &done, title(asked.technique, chosen), exposure)?;
+    if let (Some(beside), Some((film, left))) = (beside, other) {
+        show_beside(&beside, (&film, left), &done, title(asked.technique, chosen), exposure)?;
         if let Some(note) = note {
             writeln!(out(), "note: {note}")?;
         }
@@ -200,22 +200,14 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
 /// Writes the picture of the image and another, and says what each took.
 fn show_beside(
     beside: &Beside,
-    (other, by): (Progress, Technique),
+    (film, left): (&Film, Cost),
     done: &Image,
     technique: String,
     exposure: f64,
 ) -> Result<(), Box<dyn Error>> {
-    let wrote = beside.write(&other.film, &done.film, exposure)?;
-    let left = Cost {
-        technique: title(beside.technique, by),
-        seconds: other.seconds,
-        shadow_rays: other.rays.shadow,
-        error: other.error,
-        passes: other.passes.iter().map(|pass| pass.spp).collect(),
-    };
-    let passes = done.passes.iter().map(|pass| pass.spp).collect();
+    let wrote = beside.write(film, &done.film, exposure)?;
     let (seconds, shadow_rays) = (median(&done.seconds), done.rays.shadow);
-    let right = Cost { technique, seconds, shadow_rays, error: done.error, passes };
+    let right = Cost { technique, seconds, spp: done.spp, shadow_rays, error: done.error };
     writeln!(out(), "{wrote}: the same scene in about the same time\n  left   {left}\n  right  {right}")?;
     Ok(())
 }
@@ -316,22 +308,29 @@ impl Session<'_> {
         Ok(Image { film, error, rays, spp, sampler, sets, has_sets, seconds: vec![seconds], passes, taken: None })
     }
 
-    /// Renders the scene with other settings in so many seconds, and writes nothing.
-    fn other(
-        &self,
-        settings: Settings,
-        sampler: Option<Sampler>,
-        seconds: f64,
-    ) -> Result<(Progress, Technique), String> {
+    /// Renders the scene with other settings, and as many samples as take about so many seconds, and writes nothing. A smaller image before it
+    /// tells what a sample takes: in passes, the samples would be worth less than those of an image that is rendered at once.
+    fn other(&self, settings: Settings, sampler: Option<Sampler>, seconds: f64) -> Result<(Film, Cost), String> {
+        let asked = settings.technique;
         let settings = *self.world.view(&settings).settings();
-        let plan = Refinement { settings, sampler, goal: Goal { seconds: Some(seconds), error: None } };
-        let template = format!("{{wide_bar}} {{elapsed}} of {seconds:.1} s, by {}", settings.technique.name());
-        let bar = bar((seconds * 1000.0) as u64, &template);
-        let began = Instant::now();
-        let advance = |_| bar.set_position(began.elapsed().as_millis() as u64);
-        let done = progressive::render(self.world, &plan, &advance, |_, _| (), |_| Ok(()));
+        let counts = Refinement { settings, sampler, goal: Goal::default() }.counts()?;
+        let at_most = |n: f64| counts.iter().copied().rfind(|&count| f64::from(count) <= n).unwrap_or(counts[0]);
+        let bar = bar((seconds * 1000.0) as u64, "{wide_bar} {elapsed} by the other technique");
+        let render = |spp: u32| {
+            let began = Instant::now();
+            let sampler = sampler.unwrap_or_else(|| default_sampler(spp, settings.sets));
+            let view = self.world.view(&Settings { spp, sampler, ..settings });
+            let (film, rays) = view.image(&|_| bar.set_position(began.elapsed().as_millis() as u64));
+            let error = Claim::new(&film, &view.foreseen(), spp.into());
+            (film, rays, error, began.elapsed().as_secs_f64())
+        };
+        let few = at_most(16.0);
+        let (.., taken) = render(few);
+        let spp = at_most(f64::from(few) * seconds / taken);
+        let (film, rays, error, seconds) = render(spp);
         bar.finish_and_clear();
-        Ok((done?, settings.technique))
+        let technique = title(asked, settings.technique);
+        Ok((film, Cost { technique, seconds, spp: spp.into(), shadow_rays: rays.shadow, error }))
     }
 }
 

@@ -110,7 +110,10 @@ impl Refinement {
     }
     /// The numbers of samples that a pass may have, in increasing order: powers of two, and of [`Sampler::Adaptive`], whose pixels differ in
     /// their numbers anyway, eighths between them.
-    fn counts(&self) -> Result<Vec<u32>, String> {
+    ///
+    /// # Errors
+    /// Fails if the goal is an error, but no number of samples has a variance.
+    pub fn counts(&self) -> Result<Vec<u32>, String> {
         let sets = self.settings.sets;
         let from = |power: u32| std::iter::once(power).chain((9..16).map(move |eighths| power / 8 * eighths));
         let all = (0..=MOST_SAMPLES.ilog2()).flat_map(|bits| from(1 << bits));

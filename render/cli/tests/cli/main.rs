@@ -375,7 +375,10 @@ fn another_technique_is_beside_the_image() {
     assert!(line("wrote quads-beside-area.png: ").ends_with("in about the same time"), "{text}");
     for start in ["  left   area: ", "  right  auto (analytic): "] {
         let end = line(start).strip_prefix(start).unwrap();
-        assert!(end.contains(" s, ") && end.contains(" shadow rays, error "), "{end}");
+        assert!(
+            end.contains(" s, ") && end.contains(" samples per pixel, ") && end.contains(" shadow rays, error "),
+            "{end}"
+        );
     }
     let pixels = |name: &str| {
         let bytes = fs::read(folder.path(name)).unwrap();
