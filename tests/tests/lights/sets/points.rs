@@ -1,9 +1,10 @@
 //! Points of samples, and what lights under maps are.
 
-use super::{V, ellipsoid, estimate, every, numbers, up, v};
+use super::{V, agree, ellipsoid, estimate, every, numbers, up, v};
 use etendue::light::Affine;
 use etendue::lights::{Emitter, Lights, Receiver, Side};
-use etendue::{Disk, Sphere};
+use etendue::sequence::{Independent, Sequence};
+use etendue::{Disk, Sphere, Warp, warp::UniformSphere};
 use etendue_oracle::tier::cases;
 
 /// The point of a sample is as near to the light as it says, by the shape in double precision; and the reach of a shadow ray is near.
@@ -109,4 +110,28 @@ fn round_images_are_spheres_and_disks() {
             }
         }
     }
+}
+
+/// Irradiance of an ellipsoid by directions all around that hit it.
+#[test]
+fn ellipsoids_are_sampled_as_they_are_seen() {
+    let lamp = ellipsoid::<f64>();
+    let [x, y, z] = lamp.axes;
+    let volume = x.dot(y.cross(z));
+    let local = |d: V<f64>| V::new(d.dot(y.cross(z)), d.dot(z.cross(x)), d.dot(x.cross(y))) * (1.0 / volume);
+    let (p, mut sum, mut squares) = (local(-lamp.origin) - lamp.shape.center, 0.0, 0.0);
+    let count = cases(400_000_u32, 4_000_000);
+    for i in 0..count {
+        let w: V<f64> = UniformSphere.sample(Independent::new(9).pair(0, i, 0));
+        let d = local(w);
+        // the least distance of the line from the centre
+        let along = -p.dot(d) / d.length_squared();
+        let hit = along > 0.0 && (p + d * along).length() < lamp.shape.radius;
+        let x = if hit { w.y.max(0.0) * 4.0 * std::f64::consts::PI } else { 0.0 };
+        sum += x;
+        squares += x * x;
+    }
+    let (n, mean) = (f64::from(count), sum / f64::from(count));
+    let truth = [mean, ((squares / n - mean * mean).max(0.0) / n).sqrt()];
+    agree(estimate(&[(lamp.into(), 1.0)], up(), v([0.0; 3]), 3), truth, "an ellipsoid");
 }
