@@ -204,6 +204,36 @@ fn emitted_rays_carry_the_irradiance_of_their_light() {
     check::<f32>();
     check::<f64>();
 }
+
+/// The density of a ray that leaves a surface is cosθ/π over the area, half of that if both sides emit; its weight is the cosine over it.
+#[test]
+fn rays_leave_surfaces_with_the_density_of_cosine_and_area() {
+    let half = |a: [f64; 3], b: [f64; 3]| 0.5 * v::<f64>(a).cross(v(b)).length();
+    let pi = std::f64::consts::PI;
+    // the areas of the first six lights, and of the triangles of the mesh
+    let fan =
+        [([1.0, 0.0, 0.0], [1.5, 0.0, 0.7]), ([1.5, 0.0, 0.7], [1.0, 0.0, 1.5]), ([1.0, 0.0, 1.5], [0.0, 0.0, 1.0])];
+    let areas = [
+        (0, 4.0 * pi * 0.64),
+        (1, half([1.0, 0.5, 0.0], [0.0, 0.0, 1.0])),
+        (2, 2.0 * half([1.0, 0.5, 0.0], [0.2, 0.0, 1.0])),
+        (3, 2.0 * 3.0),
+        (4, pi * 0.36),
+        (5, fan.into_iter().map(|(a, b)| half(a, b)).sum()),
+        (10, half([0.8, 0.0, 0.0], [0.0, -1.0, -1.0])),
+    ];
+    let (all, scene) = (every::<f64>(), Sphere::new(v([0.0; 3]), 3.0));
+    for (light, area) in areas {
+        let lights = Lights::new([all[light].clone()]).unwrap();
+        for k in 0..200 {
+            let ([a, b, c], [d, ..]) = (numbers(3, k), numbers(4, k));
+            let ray = lights.emit(Which { light: 0, part: 0 }, [a, b, c, d], scene);
+            let cos = ray.direction.dot(ray.normal);
+            assert!((ray.pdf * pi * area / cos - 1.0).abs() < 1e-12, "light {light}: {ray:?}");
+            assert!((ray.weight * ray.pdf / cos - 1.0).abs() < 1e-12, "light {light}: {ray:?}");
+        }
+    }
+}
 fn bits<R: Real>(x: R) -> u64 {
     x.lane_f64(0).to_bits()
 }
