@@ -156,9 +156,12 @@ fn edges_beside_the_point_belong_to_their_rectangle() {
     }
 }
 
-/// Points, vertices and numbers found by fuzzing: one vertex far beyond the others, and two at very different distances in nearly one
+/// A receiver, the vertices of a triangle, and two random numbers.
+type Found = ([f64; 3], [[f64; 3]; 3], [f64; 2]);
+
+/// Found by fuzzing: one vertex far beyond the others, and two at very different distances in nearly one
 /// direction.
-const FOUND: [([f64; 3], [[f64; 3]; 3], [f64; 2]); 2] = [
+const FOUND: [Found; 2] = [
     (
         [0.0, 1.347_311_735_153_198_2, 0.0],
         [
