@@ -324,7 +324,7 @@ impl<'a> TileRenderer<'a> {
         };
         let mut numbers = Numbers {
             light: [Vec2::default(); GROUP],
-            choice: (chooser.needs_numbers() && any).then(|| own(CHOICE)),
+            choice: (chooser.needs_numbers() && !self.only_looks).then(|| own(CHOICE)),
             surface: (point && any && self.sampled.is_combined()).then(|| own(SURFACE)),
         };
         let mut samples = [CameraSample { film: Vec2::default(), lens: Vec2::default() }; GROUP];
