@@ -216,7 +216,7 @@ impl<'a> PixelCounts<'a> {
         let width = (tile[2] - tile[0]) as usize;
         let around = [0, 1].map(|k| {
             let squares: Vec<f64> = squares.iter().map(|squares| squares[k]).collect();
-            mean_around(&squares, &vec![1.0; squares.len()], width)
+            mean_around(&squares, None, width)
         });
         let both = |(i, pixel): (usize, [u32; 2])| {
             let squares = [0, 1].map(|k| squares[i][k] + BESIDE * around[k][i]);
@@ -260,7 +260,9 @@ type Shared = (usize, Vec<f32>);
 fn count_packets(parts: &[Statistics], width: u32, plan: &SamplePlan) -> ([Vec<u32>; 2], Option<Shared>) {
     let (columns, lights) = (width as usize, parts[0].lights);
     let around = |of: &dyn Fn(&Statistics) -> f64| {
-        mean_around(&parts.iter().map(of).collect::<Vec<_>>(), &vec![1.0; parts.len()], columns)
+        let values: Vec<_> = parts.iter().map(of).collect();
+        // most images have no outlines
+        if values.iter().all(|&v| v == 0.0) { values } else { mean_around(&values, None, columns) }
     };
     let mut weights = None;
     let own: Vec<f64> = if lights == 0 {
@@ -272,7 +274,7 @@ fn count_packets(parts: &[Statistics], width: u32, plan: &SamplePlan) -> ([Vec<u
         for k in (0..lights).filter(|&k| parts.iter().any(|part| part.pairs[k] != 0)) {
             let spread: Vec<_> = parts.iter().map(|part| f64::from(part.spread[k])).collect();
             let pairs: Vec<_> = parts.iter().map(|part| f64::from(part.pairs[k])).collect();
-            for (of, mean) in of.chunks_mut(lights).zip(mean_around(&spread, &pairs, columns)) {
+            for (of, mean) in of.chunks_mut(lights).zip(mean_around(&spread, Some(&pairs), columns)) {
                 of[k] = pow(mean, POWER) as f32;
             }
         }
@@ -293,8 +295,8 @@ fn count_packets(parts: &[Statistics], width: u32, plan: &SamplePlan) -> ([Vec<u
 /// falls with the former, and `outlines` with the latter.
 fn wanted(own: f64, outlines: f64) -> [f64; 2] {
     // Σ c n^−1.5 is least for a given Σ t n with n ∝ (c/t)^0.4: a sample that does more than look takes the rest of the time
-    let apart = [own / (1.0 - LOOK), outlines / LOOK].map(|c| pow(c, POWER));
-    if apart[0] < apart[1] && outlines > 0.0 { apart } else { [pow(own + outlines, POWER); 2] }
+    let apart = [own / (1.0 - LOOK), outlines / LOOK];
+    if apart[0] < apart[1] { apart.map(|c| pow(c, POWER)) } else { [pow(own + outlines, POWER); 2] }
 }
 
 /// Packets per set for each pixel in proportion to what it `wants`, with the same time for the pixels of each colour.
@@ -365,25 +367,50 @@ fn greatest_power(x: f64) -> f64 {
     f64::from_bits(x.to_bits() >> 52 << 52)
 }
 
-/// Σ `sums` / Σ `counts` over the neighbours of each pixel that have other colours.
-fn mean_around(sums: &[f64], counts: &[f64], columns: usize) -> Vec<f64> {
-    let weighted = |values: &[f64]| {
-        let (near, far) = (sums_around(values, columns, NEAR), sums_around(values, columns, OUTERMOST));
-        near.into_iter().zip(far).map(|(near, far)| near + WEIGHT_OUTERMOST * far)
+/// Σ `sums` / Σ `counts` over the neighbours of each pixel that have other colours; without counts, each counts 1.
+fn mean_around(sums: &[f64], counts: Option<&[f64]>, columns: usize) -> Vec<f64> {
+    let weighted = |around: &dyn Fn(usize) -> Vec<f64>| {
+        around(NEAR).into_iter().zip(around(OUTERMOST)).map(|(near, far)| near + WEIGHT_OUTERMOST * far).collect()
     };
-    weighted(sums).zip(weighted(counts)).map(|(sum, count)| if count > 0.0 { sum / count } else { 0.0 }).collect()
+    let (sums, counts): (Vec<f64>, Vec<f64>) = (
+        weighted(&|reach| sums_around(sums, columns, reach)),
+        weighted(&|reach| match counts {
+            Some(counts) => sums_around(counts, columns, reach),
+            None => numbers_around(sums.len(), columns, reach),
+        }),
+    );
+    sums.into_iter().zip(counts).map(|(sum, count)| if count > 0.0 { sum / count } else { 0.0 }).collect()
+}
+
+/// The pixels up to `reach` away from one of so many, in one dimension.
+fn near(i: usize, reach: usize, most: usize) -> std::ops::Range<usize> {
+    i.saturating_sub(reach)..(i + reach + 1).min(most)
+}
+
+fn has_own(i: usize, j: usize) -> bool {
+    i.abs_diff(j).is_multiple_of(COLOURS)
+}
+
+/// How many pixels up to `reach` rows and columns away from each of `count` pixels have other colours: [`sums_around`] of ones.
+fn numbers_around(count: usize, columns: usize, reach: usize) -> Vec<f64> {
+    // all and those of its own, in one dimension
+    let line = |most: usize| -> Vec<[usize; 2]> {
+        let of = |i| [near(i, reach, most).len(), near(i, reach, most).filter(|&j| has_own(i, j)).count()];
+        (0..most).map(of).collect()
+    };
+    let [across, down] = [columns, count / columns].map(line);
+    let of = |i: usize| [across[i % columns], down[i / columns]];
+    (0..count).map(of).map(|[[x, own], [y, of_own]]| (x * y - own * of_own) as f64).collect()
 }
 
 /// Sums over the pixels up to `reach` rows and columns away from each pixel that have other colours. The value of a pixel of its colour is
 /// never added and subtracted again, so that not even rounding depends on it.
 fn sums_around(values: &[f64], columns: usize, reach: usize) -> Vec<f64> {
-    let near = |i: usize, most: usize| i.saturating_sub(reach)..(i + reach + 1).min(most);
-    let has_own = |i: usize, j: usize| i.abs_diff(j).is_multiple_of(COLOURS);
     // in each row, the sum of all values, and of those in columns of other colours
     let (mut all, mut others) = (Vec::with_capacity(values.len()), Vec::with_capacity(values.len()));
     for row in values.chunks(columns) {
         for x in 0..columns {
-            let range = near(x, columns);
+            let range = near(x, reach, columns);
             all.push(row[range.clone()].iter().sum::<f64>());
             others.push(range.filter(|&other| !has_own(x, other)).map(|other| row[other]).sum::<f64>());
         }
@@ -391,7 +418,7 @@ fn sums_around(values: &[f64], columns: usize, reach: usize) -> Vec<f64> {
     let rows = values.len() / columns;
     let of_row = |x: usize, y: usize, row: usize| if has_own(y, row) { &others } else { &all }[row * columns + x];
     (0..values.len())
-        .map(|i| near(i / columns, rows).map(|row| of_row(i % columns, i / columns, row)).sum::<f64>())
+        .map(|i| near(i / columns, reach, rows).map(|row| of_row(i % columns, i / columns, row)).sum::<f64>())
         .collect()
 }
 

@@ -33,12 +33,13 @@ fn neighbours_are_summed() {
 fn means_weight_near_and_far_neighbours() {
     let (sums, mut counts) = (integers(7), integers(5));
     counts[..9].fill(0.0);
-    for (i, mean) in mean_around(&sums, &counts, WIDTH).into_iter().enumerate() {
+    for (i, mean) in mean_around(&sums, Some(&counts), WIDTH).into_iter().enumerate() {
         let both = |values: &[f64]| around(values, i, NEAR) + WEIGHT_OUTERMOST * around(values, i, OUTERMOST);
         let expected = both(&sums) / both(&counts);
         assert!((mean / expected - 1.0).abs() < 1e-14, "pixel {i}: {mean} instead of {expected}");
     }
-    assert!(mean_around(&sums, &vec![0.0; sums.len()], WIDTH).iter().all(|&mean| mean == 0.0));
+    assert_eq!(mean_around(&sums, None, WIDTH), mean_around(&sums, Some(&vec![1.0; sums.len()]), WIDTH));
+    assert!(mean_around(&sums, Some(&vec![0.0; sums.len()]), WIDTH).iter().all(|&mean| mean == 0.0));
 }
 #[test]
 fn the_pilot_is_a_quarter_in_a_power_of_two() {
