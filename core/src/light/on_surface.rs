@@ -9,7 +9,7 @@ use crate::real::{Mask, Real};
 use crate::vector::Vec3;
 
 /// How far from a light a point of it may be, in units of the last place of the greatest coordinate of either. Barycentric coordinates and
-/// hits of rays take up to 6.
+/// hits of rays from points with coordinates no greater take up to 6; a ray from n times as far, n times as many.
 const ULPS: f64 = 16.0;
 
 /// That distance where the greatest coordinate is 1.
@@ -48,8 +48,10 @@ macro_rules! on_surface {
 }
 on_surface! {
     /// Whether the point `p` is in the plane of the light, to within the rounding of its own computation: 16 units of the last place of the
-    /// greatest coordinate. True for every point of the light that a host has computed, of which half are in front of it through
-    /// rounding, and would be lit; the host passes over the light then. False where there is no plane.
+    /// greatest coordinate. True for every point of the light that a host has computed from its vertices, or as the hit of a ray from a point
+    /// whose coordinates are at most twice as great. Half of these are in front of the light through rounding, and would be lit; the host
+    /// passes over the light then. (The hit of a ray from farther away has the rounding of the ray's length; barycentric coordinates
+    /// make a better point of it.) False where there is no plane.
     Triangle<R>: |light, p| in_plane(p, light.v0, [light.e1, light.e2]);
     /// Whether the point `p` is in the plane of the light, to within the rounding of its own computation: as of a
     /// [`Triangle`](Triangle::on_surface).

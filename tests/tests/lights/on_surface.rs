@@ -125,8 +125,10 @@ fn shapes<R: Real<Scalar = R>>(numbers: &mut Numbers) -> Vec<Shape<R>> {
     ]
 }
 
-/// A point of a plane as the hit of a ray from the scene's greatest distance, by the textbook: t = n·(a − o)/n·d.
+/// A point of a plane as the hit of a ray from a point whose coordinates are at most twice as great, by the textbook: t = n·(a − o)/n·d.
 fn hit<R: Real<Scalar = R>>(from: V<R>, at: V<R>, on: V<R>, normal: V<R>) -> Option<V<R>> {
+    let [greatest, most] = [from, at].map(|v| v.max_abs().lane_f64(0));
+    let from = if greatest > 2.0 * most { from * R::lit(2.0 * most / greatest) } else { from };
     let d = (at - from).unit_and_length().0;
     let along = d.dot(normal);
     (along.abs().lane_f64(0) > 0.05).then(|| from + d * (normal.dot(on - from) / along))

@@ -1,6 +1,6 @@
 //! Runs `etendue chart` as a user would, and checks their measurements.
 
-use super::{Folder, until};
+use super::{Folder, TEN_SCENES, until};
 use etendue_laboratory::chart::measure::{Measurement, Rows};
 use etendue_laboratory::chart::reference::Reference;
 use etendue_laboratory::chart::{self, Options};
@@ -302,20 +302,8 @@ fn the_references_own_error_is_taken_off() {
 #[test]
 #[ignore = "takes minutes of an idle machine"]
 fn the_answer_of_a_quick_chart_is_that_of_the_scenes_own_size_at_length() {
-    let names = [
-        "studio",
-        "sphere-light",
-        "triangle-light",
-        "quads",
-        "cornell-box",
-        "mirror-room",
-        "plates",
-        "delta-lights",
-        "sky",
-        "defocus",
-    ];
     let mut agree = 0;
-    for name in names {
+    for name in TEN_SCENES {
         let film = &etendue_scene::load(name).unwrap().film;
         let [half, own] = [2, 1].map(|part| {
             let folder = Folder::new();

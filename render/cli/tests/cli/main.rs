@@ -16,6 +16,20 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use std::time::{Duration, Instant};
 use std::{env, fs, process, thread};
 
+/// The scenes of tests at length.
+const TEN_SCENES: [&str; 10] = [
+    "studio",
+    "sphere-light",
+    "triangle-light",
+    "quads",
+    "cornell-box",
+    "mirror-room",
+    "plates",
+    "delta-lights",
+    "sky",
+    "defocus",
+];
+
 /// A temporary folder for a test, removed when the test ends.
 struct Folder(PathBuf);
 

@@ -1,6 +1,6 @@
 //! Images that are refined until their error or the time is what was asked for, and the error that images claim.
 
-use super::{Folder, json, keys};
+use super::{Folder, TEN_SCENES, json, keys};
 use etendue_laboratory::chart::reference::Reference;
 use etendue_oracle::tier::cases;
 use etendue_render::film::compare::Comparison;
@@ -243,4 +243,49 @@ fn closed_forms_have_an_error_of_their_own() {
     let [few, passes] =
         [&["--spp", "64"][..], &["--error", "0.05%"]].map(|more| report(more)["systematic"].as_f64().unwrap());
     assert!((few / passes - 1.0).abs() < 0.01, "{few} {passes}");
+}
+
+/// What an image took and reached: its error, seconds and samples per pixel, and whether its error is sure.
+fn reached(folder: &Folder, scene: &str, more: &[&str]) -> ([f64; 3], bool) {
+    let output = folder.run(&[&["render", scene, "--size", "256x256", "-o", "a.exr", "--json"], more].concat());
+    let report = json(&String::from_utf8(output.stdout).unwrap());
+    let seconds = report["seconds"]["render"][0].as_f64().unwrap();
+    let [error, spp] = ["error", "spp"].map(|key| report[key].as_f64().unwrap());
+    ([error, seconds, spp], report["uncertain"].is_null())
+}
+
+/// How much of the time images use, and how their error compares with that of an image of a fixed number of samples that takes the whole time.
+#[test]
+#[ignore = "ten scenes by five times: ten minutes"]
+fn images_use_the_time_as_a_table() {
+    let folder = Folder::new();
+    println!("part of the time that is used, and the error over that of as many samples at once");
+    for scene in TEN_SCENES {
+        let cells = [0.5, 1.0, 2.0, 4.0, 8.0].map(|time| {
+            let ([error, used, spp], _) = reached(&folder, scene, &["--time", &time.to_string()]);
+            let fixed = (spp * time / used).round().max(8.0);
+            let ([other, took, _], _) = reached(&folder, scene, &["--spp", &fixed.to_string()]);
+            // as if it had taken exactly the time
+            let other = other * (took / time).powf(0.75);
+            format!("{:3.0} % {:4.2}", 100.0 * used / time, error / other)
+        });
+        println!("{scene:15} {}", cells.join("   "));
+    }
+}
+
+/// Where images stop that are to reach an error: the error over that asked for, and the samples per pixel.
+#[test]
+#[ignore = "ten scenes by five errors: ten minutes"]
+fn images_stop_at_the_error_as_a_table() {
+    let folder = Folder::new();
+    println!("error over that asked for, and samples per pixel");
+    for scene in TEN_SCENES {
+        let cells = ["10%", "3%", "1%", "0.3%", "0.1%"].map(|error| {
+            let ([found, _, spp], is_sure) = reached(&folder, scene, &["--error", error]);
+            let target = error.trim_end_matches('%').parse::<f64>().unwrap() / 100.0;
+            assert!(found <= target, "{scene} to {error}: {found}");
+            format!("{:4.2}{} {spp:6}", found / target, if is_sure { ' ' } else { '?' })
+        });
+        println!("{scene:15} {}", cells.join("  "));
+    }
 }
