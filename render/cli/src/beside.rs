@@ -14,7 +14,7 @@ use std::thread::available_parallelism;
 const LINE: u32 = 2;
 
 /// The part of the processors' time that a program has where nothing else runs, at least.
-const OWN: f64 = 0.75;
+const OWN: f64 = 0.5;
 
 /// What the picture shows beside the image.
 pub(crate) struct Beside {
