@@ -314,7 +314,7 @@ impl Session<'_> {
         let asked = settings.technique;
         let settings = *self.world.view(&settings).settings();
         let counts = Refinement { settings, sampler, goal: Goal::default() }.counts()?;
-        let at_most = |n: f64| counts.iter().copied().rfind(|&count| f64::from(count) <= n).unwrap_or(counts[0]);
+        let at_most = |n: f64| progressive::at_most(&counts, n).unwrap_or(counts[0]);
         let bar = bar((seconds * 1000.0) as u64, "{wide_bar} {elapsed} by the other technique");
         let render = |spp: u32| {
             let began = Instant::now();

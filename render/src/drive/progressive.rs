@@ -341,7 +341,9 @@ fn first(goal: Goal, pixels: f64) -> f64 {
     goal.seconds.map_or(f64::from(FIRST), |s| (s / 4.0 * threads * SLOW / pixels).min(f64::from(FIRST)))
 }
 
-fn at_most(counts: &[u32], n: f64) -> Option<u32> {
+/// The greatest of increasing `counts` that is at most `n`; `None` if all are greater.
+#[must_use]
+pub fn at_most(counts: &[u32], n: f64) -> Option<u32> {
     counts.iter().copied().rfind(|&count| f64::from(count) <= n)
 }
 

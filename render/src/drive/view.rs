@@ -25,10 +25,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Greatest number of tiles that are looked at to bound what closed forms leave.
 const BOUNDED: usize = 16;
 
-/// Receives an area, its pixels row by row, and how many samples each has on average.
+/// A function that is called with each finished tile: its area, its pixels row by row, and their mean number of samples.
 pub type Listener<'a> = &'a (dyn Fn(Area, &[Pixel], u32) + Sync);
 
-/// Something that is told of each tile.
+/// A [`Listener`] with the `Debug` that functions lack.
 #[derive(Clone, Copy)]
 struct Told<'a>(Listener<'a>);
 

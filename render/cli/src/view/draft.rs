@@ -34,7 +34,7 @@ pub(crate) struct Draft {
 }
 
 impl Draft {
-    /// Of an image of this size.
+    /// A draft of an image of `size` (columns and rows), which shows `film`. It is coarse if that has another size.
     pub(crate) const fn new(way: Way, film: Film, size: [u32; 2], version: u64) -> Self {
         let is_coarse = film.width != size[0] || film.height != size[1];
         Self { way, film, size, version, is_coarse, is_sent: false }

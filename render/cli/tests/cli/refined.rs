@@ -67,7 +67,7 @@ fn the_time_asked_for_is_kept() {
     assert!(claimed > 1e-6 && report["seconds"]["render"][0].as_f64().unwrap() < 3.0, "{report}");
 }
 
-/// The trial of `auto` is a part of the time that was asked for, and of the time that is told.
+/// The trial of `auto` counts towards the time limit, and is included in the time that is reported.
 #[test]
 fn the_trial_counts_in_the_time() {
     let folder = Folder::new();

@@ -229,7 +229,7 @@ fn one_speck_does_not_take_all_samples() {
     }
 }
 
-/// Of all numbers of samples and looks that take the same time, those that are wanted have the least error.
+/// No other split of the same time between samples and looks has a smaller error than the one that `wanted` returns.
 #[test]
 fn wanted_numbers_have_the_least_error() {
     let time = |[samples, looks]: [f64; 2]| samples + (looks - samples) * LOOK;

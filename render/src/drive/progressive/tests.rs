@@ -82,7 +82,8 @@ fn a_part_takes_passes_of_its_own() {
     }
 }
 
-/// While a pass is rendered, its tiles are told as the image will have them; with `adaptive` first with the samples of the pilot.
+/// While a pass is rendered, the listener receives each tile as the finished image will show it. With `adaptive` it first receives the tile
+/// with the samples of the pilot alone.
 #[test]
 fn tiles_are_told_while_a_pass_is_rendered() {
     let world = lit_floor();
