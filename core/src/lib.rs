@@ -60,11 +60,9 @@
 //! | x86-64-v3, f32x8 | 8.0 / 16.0 / 1.9 | 7.7 / 9.9 / 1.7 | 1.04 / 1.63 / 1.13 | | |
 //! | x86-64, f32x8 | 19.2 / 28.6 / 4.0 | 14.4 / 14.6 / 4.0 | 1.34 / 1.96 / 1.00 | | |
 //!
-//! What accuracy costs, in instructions of a sample of single numbers on x86-64 (`f32`, `f64`), counted by callgrind with one step left out at a
-//! time: rectangles take 1,047 and 1,370, their textbook 543 and 602. Coordinates in twice the working precision are 19 and 226 of these, the
-//! height likewise and the count from the nearer end 60 and 72, the count from a far edge 47 and 59; the rest is that angles and strips
-//! are formed without cancellation. Spheres take 208 and 231, their textbook 129 and 215: what is near or inside costs 14 and 10,
-//! the scale of any size 26 and 33, and the rest is the cosine from the sine.
+//! What accuracy costs beyond the textbook: a rectangle keeps its coordinates and its height in twice the working precision, and counts the
+//! height from the nearer end and along a far edge; these steps are the smaller part, and forms of angles and strips without
+//! cancellation the greater. A sphere takes care of points near it or inside and of any scale, and forms the cosine from the sine.
 //!
 //! `wide` chooses its vector width when it is compiled. Build with `-C target-cpu=x86-64-v3` (or native): otherwise a packet of 8 is two
 //! or more registers, and products and sums take two instructions, with the errors of the index. With `same-bits`, software then rounds
