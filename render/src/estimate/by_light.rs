@@ -1,4 +1,4 @@
-//! Direct light by sampling a light.
+//! Direct light by sampling a light: f L V cosθ / pdf, less what the [`Ledger`] has of it, as (f cosθ − fit) L V or f cosθ L (V − fraction).
 
 use super::mis::Mis;
 use super::unoccluded::Unoccluded;
@@ -44,16 +44,16 @@ impl ByLight {
             let cos = direction.dot(surface.normal);
             let own = light.is_own(primitives, surface.point, surface.normal);
             let some = pdf.gt(zero) & choice.pmf.gt(zero);
-            let mut lit = lanes & emits & some & cos.gt(zero) & !own;
+            let mut counts = lanes & emits & some & cos.gt(zero) & !own;
             // evaluate f cosθ, less what is known of its integral
             let Evaluated { mut color, factor, pdf: surface_pdf } = group.bsdf::<GENERAL>(p).evaluate(direction);
             let proven = if GENERAL { ledger.proven(p, choice.index) } else { None };
             if let Some(proven) = proven {
                 color += keep(-group.fit(p, direction, cos), proven.fitted);
-                lit = lit & !proven.dark;
+                counts = counts & !proven.dark;
             }
             // weigh f L cosθ / pdf
-            let pdf = select(lit, pdf * choice.pmf, one);
+            let pdf = select(counts, pdf * choice.pmf, one);
             let rough = group.rough::<GENERAL>(p);
             let factor = match &self.mis {
                 None => factor,
@@ -61,18 +61,18 @@ impl ByLight {
             };
             let found = product(color, radiance) * (factor / pdf);
             if let Some(counted) = ledger.counted(p, choice.index) {
-                reflected[p] += keep(found * -counted, lit);
+                reflected[p] += keep(found * -counted, counts);
             }
             if let Some(proven) = proven {
-                reflected[p] += keep(found, lit & proven.lit);
-                lit = lit & !proven.lit;
+                reflected[p] += keep(found, counts & proven.lit);
+                counts = counts & !proven.lit;
             }
             // trace a shadow ray, unless a sky or a profile is dark in that direction, or the surface black
-            lit = lit & found.max_abs().gt(zero);
-            (rays.found[p], rays.lanes[p]) = (found, lit);
+            counts = counts & found.max_abs().gt(zero);
+            (rays.found[p], rays.lanes[p]) = (found, counts);
             rays.end_at(p, distance, target);
             tracer.shadow[p] = bvh.rays(surface.point, direction).leaving(primitives);
-            tracer.count.shadow += u64::from(lit.bits().count_ones());
+            tracer.count.shadow += u64::from(counts.bits().count_ones());
         }
         rays.add(group.count, bvh, tracer, reflected);
     }
