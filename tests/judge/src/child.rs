@@ -4,14 +4,15 @@ use crate::foreign::load;
 use crate::lights::measured::{Figure, Measured};
 use crate::lights::scene::Axis;
 use crate::lights::verdict::{Case, Effort, Finding, Judgement, judge};
+use serde::{Deserialize, Serialize};
 use std::env::current_exe;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
-/// What a child does: the library, which of its samplers, and how thoroughly.
-#[derive(Clone, Debug)]
+/// What a child does: the library, which of its samplers, and how thoroughly. It is the child's argument, as JSON.
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct Task {
     /// The library.
     pub library: PathBuf,
@@ -31,37 +32,14 @@ impl Task {
     fn errors(&self) -> PathBuf {
         self.answer.with_extension("errors")
     }
-    /// The same as arguments of the program, and back.
-    #[must_use]
-    pub fn arguments(&self) -> Vec<String> {
-        let Effort { quick, seed, page } = self.effort;
-        let sampler = self.sampler.map_or(-1, |i| i as i64);
-        [
-            "child".into(),
-            self.library.display().to_string(),
-            sampler.to_string(),
-            quick.to_string(),
-            seed.to_string(),
-            page.to_string(),
-            self.answer.display().to_string(),
-        ]
-        .into()
-    }
-    /// The task of a child.
-    #[must_use]
-    pub fn parse(arguments: &[String]) -> Option<Self> {
-        let [library, sampler, quick, seed, page, answer] = arguments else { return None };
-        let effort = Effort { quick: quick.parse().ok()?, seed: seed.parse().ok()?, page: page.parse().ok()? };
-        let sampler = usize::try_from(sampler.parse::<i64>().ok()?).ok();
-        Some(Self { library: library.into(), sampler, effort, answer: answer.into() })
-    }
 }
 
-/// The names of all samplers, or a judgement, as the answer to a task.
+/// The names of all samplers, or a judgement, as the answer to a task in JSON.
 ///
 /// # Errors
 /// Fails if the library has no such samplers or the answer cannot be written.
-pub fn work(task: &Task) -> Result<(), String> {
+pub fn work(task: &str) -> Result<(), String> {
+    let task: Task = serde_json::from_str(task).map_err(|e| format!("a child has other arguments: {e}"))?;
     let subjects = load(&task.library)?;
     let answer = match task.sampler {
         None => serde_json::to_string(&subjects.iter().map(|s| &s.name).collect::<Vec<_>>()),
@@ -106,7 +84,7 @@ fn run(task: &Task, limit: Duration) -> Result<End, String> {
     // not a pipe, which a library that says much would fill
     let errors = fs::File::create(task.errors()).map_err(|e| e.to_string())?;
     let mut child = Command::new(program)
-        .args(task.arguments())
+        .args(["child", &serde_json::to_string(task).map_err(|e| e.to_string())?])
         .stdin(Stdio::null())
         .stdout(Stdio::null())
         .stderr(errors)
