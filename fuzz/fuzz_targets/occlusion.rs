@@ -1,4 +1,3 @@
 //! Runs `etendue_fuzz_bodies::occlusion` on any bytes.
 #![no_main]
-
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| etendue_fuzz_bodies::occlusion(bytes));

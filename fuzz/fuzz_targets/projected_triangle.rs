@@ -1,4 +1,3 @@
 //! Runs `fuzz_bodies::projected_triangle` on any bytes.
 #![no_main]
-
 libfuzzer_sys::fuzz_target!(|bytes: &[u8]| etendue_judge::fuzz_bodies::projected_triangle(bytes));

@@ -28,17 +28,9 @@ type Output = *mut f32;
 fn same(a: f32, b: f32) -> bool {
     a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan())
 }
-/// Every result is finite where all numbers are.
-fn total(is_finite: bool, results: impl IntoIterator<Item = f32>) {
-    if is_finite {
-        for x in results {
-            assert!(x.is_finite(), "{x} from finite input");
-        }
-    }
-}
-fn fields(s: &EtendueLightSample) -> [f32; 11] {
+fn fields(s: &EtendueLightSample) -> [f32; FIELDS] {
     let ([a, b, c], [d, e, f], [g, h]) = (s.direction, s.normal, s.uv);
-    [a, b, c, s.distance, s.pdf, s.weight, d, e, f, g, h]
+    [a, b, c, s.distance, s.pdf, s.weight, d, e, f, g, h, s.emits.into()]
 }
 fn sample_columns(c: [Output; FIELDS]) -> EtendueSampleColumns {
     EtendueSampleColumns {
@@ -54,10 +46,6 @@ fn sample_columns(c: [Output; FIELDS]) -> EtendueSampleColumns {
 fn all_finite(columns: &[&[f32]]) -> bool {
     columns.iter().all(|column| column.iter().all(|x| x.is_finite()))
 }
-fn expected(n: usize, is_null: bool) -> EtendueStatus {
-    if n > 0 && is_null { EtendueStatus::NullPointer } else { EtendueStatus::Ok }
-}
-
 /// Any call of the C interface returns the documented status, writes what it should and nothing else, gives finite results for finite
 /// numbers, and a batch gives the bits of its elements.
 pub fn c_interface(bytes: &[u8]) {

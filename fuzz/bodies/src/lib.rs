@@ -11,12 +11,24 @@ pub use c_interface::c_interface;
 pub use certificates::certificates;
 pub use daylight::daylight;
 pub use emitters::emitters;
+use etendue_judge::fuzz_bodies::Target;
 use etendue_render::World;
 use etendue_render::film::compare::Comparison;
 use etendue_render::scene::texture::{Mapping, Picture, Texture, Wrap};
 use etendue_scene::image::{self as images, Encoding};
 pub use occlusion::occlusion;
 use std::path::Path;
+
+/// All targets; each seed has as many damaged copies in a test as its target's share.
+pub const TARGETS: &[Target] = &[
+    Target { name: "scene", body: scene, share: 500 },
+    Target { name: "image", body: image, share: 200 },
+    Target { name: "certificates", body: certificates, share: 3000 },
+    Target { name: "daylight", body: daylight, share: 500 },
+    Target { name: "emitters", body: emitters, share: 500 },
+    Target { name: "occlusion", body: occlusion, share: 1000 },
+    Target { name: "c_interface", body: c_interface, share: 600 },
+];
 
 /// Any text, and any glTF file, gives a scene, or an error with file and line, but never a panic; and a scene that was read can be built.
 pub fn scene(bytes: &[u8]) {

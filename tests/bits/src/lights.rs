@@ -50,7 +50,7 @@ struct Area(Vec<(AreaLight, [f32; 2], [f32; 3])>);
 impl Area {
     fn new(kind: usize) -> Self {
         // numbers of its own, wherever it is in the list
-        let name = format!("{:?}", AreaLight::KINDS[kind]);
+        let name = format!("{:?}", AreaLight::kinds()[kind]);
         let mut random =
             Random::new(name.bytes().fold(500_u64, |seed, byte| (seed * 31 + u64::from(byte)) % 1_000_003));
         let slot = |round| {
@@ -182,7 +182,7 @@ impl Routine for Portals {
 }
 
 pub(crate) fn add(list: &mut List<'_>) {
-    for (kind, (shape, by)) in AreaLight::KINDS.iter().enumerate() {
+    for (kind, (shape, by)) in AreaLight::kinds().iter().enumerate() {
         list.add(format!("light/{shape:?}/{by:?}"), &Area::new(kind));
     }
     let distant = ["Point", "Spot", "Directional", "Sun", "Constant/SolidAngle", "Constant/ProjectedSolidAngle"];

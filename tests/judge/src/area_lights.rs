@@ -15,6 +15,7 @@ use etendue::{
 };
 use etendue_oracle::double_double::Dd3;
 use etendue_oracle::{V3, along, cross, dot, exact_sum, length, sub, wide};
+use std::sync::LazyLock;
 
 /// A function of its own for each technique: a compiler takes several times as long for one with all of them.
 #[inline(never)]
@@ -103,25 +104,14 @@ macro_rules! shape {
     };
 }
 /// The measure of a method of the core's list.
-macro_rules! measure {
-    (by_area) => {
-        Measure::Area
-    };
-    (by_length) => {
-        Measure::Area
-    };
-    (by_solid_angle) => {
-        Measure::SolidAngle
-    };
-    (by_angle) => {
-        Measure::SolidAngle
-    };
-    (by_projected_solid_angle) => {
-        Measure::ProjectedSolidAngle
-    };
-    (by_delta) => {
-        Measure::Delta
-    };
+const fn measure(by: &str) -> Measure {
+    match by.as_bytes() {
+        b"by_area" | b"by_length" => Measure::Area,
+        b"by_solid_angle" | b"by_angle" => Measure::SolidAngle,
+        b"by_projected_solid_angle" => Measure::ProjectedSolidAngle,
+        b"by_delta" => Measure::Delta,
+        _ => Measure::Other,
+    }
 }
 /// What is there for the rows of the core's list whose arguments an [`AreaLight`] has.
 macro_rules! row {
@@ -145,17 +135,17 @@ macro_rules! techniques {
         }
     )+) => {
         /// All rows of the core's list, in its order, but for lobes, which have fixtures of their own.
-        const ROWS: &[Option<(LightShape, Measure)>] = &[$($(row!($place, (shape!($light), measure!($by))),)+)+];
+        const ROWS: &[Option<(LightShape, Measure)>] = &[$($(row!($place, (shape!($light), measure(stringify!($by)))),)+)+];
         /// The light of a shape, by a technique.
         fn prepare<R: Real>(shape: LightShape, by: Measure, (v, radius): &([Vec3<R>; 9], R)) -> Box<dyn LightSampler<R>> {
-            $($(row!($place, if (shape, by) == (shape!($light), measure!($by)) {
+            $($(row!($place, if (shape, by) == const { (shape!($light), measure(stringify!($by))) } {
                 return boxed(|| etendue::prepared!($light::placed(v, *radius), $by $place, p: v[0], n: v[4]));
             });)+)+
             panic!("the core's list has no {shape:?} by {by:?}");
         }
         /// The same, prepared in scalars and then in every lane.
         fn splat<R: Real>(shape: LightShape, by: Measure, (v, radius): &([Vec3<R::Scalar>; 9], R::Scalar)) -> Box<dyn LightSampler<R>> {
-            $($(row!($place, if (shape, by) == (shape!($light), measure!($by)) {
+            $($(row!($place, if (shape, by) == const { (shape!($light), measure(stringify!($by))) } {
                 return boxed(|| etendue::prepared!($light::placed(v, *radius), $by $place, p: v[0], n: v[4]).splat::<R>());
             });)+)+
             panic!("the core's list has no {shape:?} by {by:?}");
@@ -171,30 +161,6 @@ macro_rules! techniques {
     };
 }
 etendue::techniques!(techniques! {});
-
-/// The rows that are there.
-const KINDS: &[(LightShape, Measure)] = {
-    const COUNT: usize = {
-        let (mut i, mut count) = (0, 0);
-        while i < ROWS.len() {
-            count += ROWS[i].is_some() as usize;
-            i += 1;
-        }
-        count
-    };
-    &{
-        let mut kinds = [(LightShape::Sphere, Measure::Area); COUNT];
-        let (mut i, mut count) = (0, 0);
-        while i < ROWS.len() {
-            if let Some(kind) = ROWS[i] {
-                kinds[count] = kind;
-                count += 1;
-            }
-            i += 1;
-        }
-        kinds
-    }
-};
 
 /// A light from the shading point, the vectors a, b, c and n of an [`AreaLight`], the rounded corners of a polygon, and the radius.
 trait Placed<R> {
@@ -232,15 +198,16 @@ impl AreaLight {
         [self.a, plus(self.a, self.b), plus(plus(self.a, self.b), self.c), plus(self.a, self.c)]
     }
     /// All shapes with a surface by all techniques: all of the core's list but the sun and the delta lights, which are last.
-    pub const KINDS: &[(LightShape, Measure)] = {
-        let (with_surface, rest) = KINDS.split_at(KINDS.len() - 4);
-        assert!(matches!(rest[0].0, LightShape::Sun));
-        with_surface
-    };
+    #[must_use]
+    pub fn kinds() -> &'static [(LightShape, Measure)] {
+        static KINDS: LazyLock<Vec<(LightShape, Measure)>> =
+            LazyLock::new(|| ROWS.iter().flatten().copied().take_while(|row| row.0 != LightShape::Sun).collect());
+        &KINDS
+    }
     /// A light of a kind, at the scale of rooms or small, far, large or near its own plane.
     #[must_use]
     pub fn any(kind: usize, round: u32, random: &mut Random) -> Self {
-        let (shape, by) = Self::KINDS[kind];
+        let (shape, by) = Self::kinds()[kind];
         let mut unit = || random.direction().map(|x| x as f32);
         let (mut b, mut c, n, towards) = (unit(), unit(), unit(), unit());
         if shape == LightShape::Rectangle {

@@ -89,7 +89,7 @@ pub const EXTREMES: [f32; 13] =
     [0.0, 1e-45, 1e-40, f32::MIN_POSITIVE, 1e-30, 1e-10, 0.3, 1.0, 7.0, 1e20, 1e38, f32::MAX, f32::INFINITY];
 
 /// Weights are in [0, 1] and sum to 1, or to 0 if all densities are 0; a density of 0 has weight 0.
-pub fn weights_sum_to_one(heuristic: Heuristic, densities: &[f32], weights: &[f32]) {
+fn weights_sum_to_one(heuristic: Heuristic, densities: &[f32], weights: &[f32]) {
     let sum: f64 = weights.iter().copied().map(f64::from).sum();
     let expected = f64::from(u8::from(densities.iter().any(|d| *d > 0.0)));
     assert!((sum - expected).abs() <= 2.4e-7, "{heuristic:?} {densities:?} {weights:?}");
@@ -99,12 +99,12 @@ pub fn weights_sum_to_one(heuristic: Heuristic, densities: &[f32], weights: &[f3
     }
 }
 /// Checks the weights of two and of three techniques at all pairs and triples of [`EXTREMES`].
-pub fn extreme_weights(heuristic: Heuristic, two: impl Fn([f32; 2]) -> [f32; 2], three: impl Fn([f32; 3]) -> [f32; 3]) {
+pub fn extreme_weights(heuristic: Heuristic) {
     for a in EXTREMES {
         for b in EXTREMES {
-            weights_sum_to_one(heuristic, &[a, b], &two([a, b]));
+            weights_sum_to_one(heuristic, &[a, b], &heuristic.weights([a, b]));
             for c in EXTREMES {
-                weights_sum_to_one(heuristic, &[a, b, c], &three([a, b, c]));
+                weights_sum_to_one(heuristic, &[a, b, c], &heuristic.weights([a, b, c]));
             }
         }
     }

@@ -4,14 +4,15 @@ use crate::foreign::load;
 use crate::lights::measured::{Figure, Measured};
 use crate::lights::scene::Axis;
 use crate::lights::verdict::{Case, Effort, Finding, Judgement, judge};
+use serde::{Deserialize, Serialize};
 use std::env::current_exe;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
-/// What a child does: the library, which of its samplers, and how thoroughly.
-#[derive(Clone, Debug)]
+/// What a child does: the library, which of its samplers, and how thoroughly. It is the child's argument, as JSON.
+#[derive(Clone, Debug, Deserialize, Serialize)]
 pub struct Task {
     /// The library.
     pub library: PathBuf,
@@ -31,37 +32,14 @@ impl Task {
     fn errors(&self) -> PathBuf {
         self.answer.with_extension("errors")
     }
-    /// The same as arguments of the program, and back.
-    #[must_use]
-    pub fn arguments(&self) -> Vec<String> {
-        let Effort { quick, seed, page } = self.effort;
-        let sampler = self.sampler.map_or(-1, |i| i as i64);
-        [
-            "child".into(),
-            self.library.display().to_string(),
-            sampler.to_string(),
-            quick.to_string(),
-            seed.to_string(),
-            page.to_string(),
-            self.answer.display().to_string(),
-        ]
-        .into()
-    }
-    /// The task of a child.
-    #[must_use]
-    pub fn parse(arguments: &[String]) -> Option<Self> {
-        let [library, sampler, quick, seed, page, answer] = arguments else { return None };
-        let effort = Effort { quick: quick.parse().ok()?, seed: seed.parse().ok()?, page: page.parse().ok()? };
-        let sampler = usize::try_from(sampler.parse::<i64>().ok()?).ok();
-        Some(Self { library: library.into(), sampler, effort, answer: answer.into() })
-    }
 }
 
-/// The names of all samplers, or a judgement, as the answer to a task.
+/// The names of all samplers, or a judgement, as the answer to a task in JSON.
 ///
 /// # Errors
 /// Fails if the library has no such samplers or the answer cannot be written.
-pub fn work(task: &Task) -> Result<(), String> {
+pub fn work(task: &str) -> Result<(), String> {
+    let task: Task = serde_json::from_str(task).map_err(|e| format!("a child has other arguments: {e}"))?;
     let subjects = load(&task.library)?;
     let answer = match task.sampler {
         None => serde_json::to_string(&subjects.iter().map(|s| &s.name).collect::<Vec<_>>()),
@@ -74,14 +52,6 @@ pub fn work(task: &Task) -> Result<(), String> {
     };
     let answer = answer.map_err(|e| e.to_string())?;
     fs::write(&task.answer, answer).map_err(|e| format!("{}: {e}", task.answer.display()))
-}
-
-/// How a child ended.
-enum End {
-    Answered(String),
-    Failed(String),
-    Crashed(String),
-    Hung(Duration),
 }
 
 fn said(status: ExitStatus) -> String {
@@ -100,13 +70,13 @@ fn said(status: ExitStatus) -> String {
     format!("it ends the process with {status}")
 }
 
-/// Runs a child until it has said nothing new for so long.
-fn run(task: &Task, limit: Duration) -> Result<End, String> {
+/// Runs a child until it has said nothing new for so long. Returns what it answers, or how it crashed or hung.
+fn run(task: &Task, limit: Duration) -> Result<Result<String, String>, String> {
     let program = current_exe().map_err(|e| e.to_string())?;
     // not a pipe, which a library that says much would fill
     let errors = fs::File::create(task.errors()).map_err(|e| e.to_string())?;
     let mut child = Command::new(program)
-        .args(task.arguments())
+        .args(["child", &serde_json::to_string(task).map_err(|e| e.to_string())?])
         .stdin(Stdio::null())
         .stdout(Stdio::null())
         .stderr(errors)
@@ -124,20 +94,20 @@ fn run(task: &Task, limit: Duration) -> Result<End, String> {
             // what has ended meanwhile needs no end
             let _ = child.kill();
             let _ = child.wait();
-            return Ok(End::Hung(limit));
+            return Ok(Err(format!("it does not end within {} s", limit.as_secs())));
         }
         std::thread::sleep(Duration::from_millis(10));
     };
     if let Ok(answer) = fs::read_to_string(&task.answer) {
-        return Ok(End::Answered(answer));
+        return Ok(Ok(answer));
     }
     let errors = fs::read_to_string(task.errors()).unwrap_or_default();
     if status.code() == Some(2) {
-        return Ok(End::Failed(errors.trim().to_owned()));
+        return Err(errors.trim().to_owned());
     }
     // what it said last is mostly why
     let last = errors.lines().rev().map(str::trim).find(|line| !line.is_empty());
-    Ok(End::Crashed(last.map_or(said(status), |line| format!("{}, after the line \"{line}\"", said(status)))))
+    Ok(Err(last.map_or(said(status), |line| format!("{}, after the line \"{line}\"", said(status)))))
 }
 
 /// Judges all samplers of a library, or those whose name contains `only`.
@@ -165,27 +135,15 @@ fn in_folder(
         answer: folder.join(sampler.map_or("list".into(), |i| format!("{i}.json"))),
     };
     let here = path.display();
-    let names = match run(&task(None), limit)? {
-        End::Answered(names) => names,
-        End::Failed(message) => return Err(message),
-        End::Crashed(how) => return Err(format!("{here}: when it is loaded, {how}")),
-        End::Hung(limit) => return Err(format!("{here}: it does not load within {} s", limit.as_secs())),
-    };
+    let names = run(&task(None), limit)?.map_err(|how| format!("{here}: when it is loaded, {how}"))?;
     let names: Vec<String> = serde_json::from_str(&names).map_err(|e| e.to_string())?;
     let mut all = Vec::new();
     for (i, name) in names.iter().enumerate().filter(|n| only.is_none_or(|only| n.1.contains(only))) {
         let task = task(Some(i));
-        let how = match run(&task, limit)? {
-            End::Answered(judgement) => {
-                all.push(serde_json::from_str(&judgement).map_err(|e| format!("{name}: {e}"))?);
-                continue;
-            }
-            End::Failed(message) => return Err(message),
-            End::Crashed(how) => how,
-            End::Hung(limit) => format!("it does not end within {} s", limit.as_secs()),
-        };
-        let at = fs::read_to_string(task.at()).unwrap_or_default();
-        all.push(unanswered(name, &how, &at));
+        all.push(match run(&task, limit)? {
+            Ok(judgement) => serde_json::from_str(&judgement).map_err(|e| format!("{name}: {e}"))?,
+            Err(how) => unanswered(name, &how, &fs::read_to_string(task.at()).unwrap_or_default()),
+        });
     }
     if all.is_empty() {
         let only = only.unwrap_or_default();

@@ -9,12 +9,14 @@ mod lights;
 mod numbers;
 mod pictures;
 mod reflections;
+pub mod run;
 mod sequences;
 mod sets;
 mod shapes;
 mod skies;
 mod surfaces;
 
+use crate::area_lights::{LightShape::*, Measure::*};
 use crate::generators::{self, EDGES, NASTY, Random};
 use arbitrary::Unstructured;
 
@@ -25,39 +27,46 @@ pub struct Target {
     pub name: &'static str,
     /// The function that runs one input.
     pub body: fn(&[u8]),
-    /// Weight of this target in the random test: the more work an input is, the lower.
+    /// Weight of this target in tests: the more work an input is, the lower.
     pub share: u32,
 }
 
 macro_rules! targets {
-    ($($module:ident: $($name:ident $share:literal)+;)+) => {
+    ($($module:ident: $($name:ident $share:literal $(= $function:ident($($argument:expr),+))?)+;)+) => {
         $($(
             #[doc = concat!("The body of the target `", stringify!($name), "`, which its module describes.")]
             ///
             /// # Panics
             /// If a property is broken.
             pub fn $name(bytes: &[u8]) {
-                $module::$name(&mut Input::new(bytes));
+                targets!(@call $module $name &mut Input::new(bytes) $(, $function $($argument)+)?);
             }
         )+)+
         /// All targets except those of files, which are the renderer's.
         pub const TARGETS: &[Target] = &[$($(Target { name: stringify!($name), body: $name, share: $share }),+),+];
     };
+    (@call $module:ident $name:ident $input:expr) => { $module::$name($input) };
+    (@call $module:ident $name:ident $input:expr, $function:ident $($argument:expr)+) => { $module::$function($($argument,)+ $input) };
 }
 targets! {
-    shapes: cone 700 fixed_warps 700 bilinear 700 visible_normals 400 spherical_cap 400 projected_cap 30 spherical_triangle 150
-        spherical_parallelogram 100 spherical_rectangle 150 spherical_polygon 100 spherical_disk 100 spherical_segment 150
-        projected_segment 100 projected_triangle 50 projected_polygon 50;
+    shapes: cone 700 fixed_warps 700 bilinear 700 visible_normals 400 spherical_cap 400 = seen(Sphere, SolidAngle)
+        projected_cap 30 = seen(Sphere, ProjectedSolidAngle) spherical_triangle 150 = seen(Triangle, SolidAngle)
+        spherical_parallelogram 100 = seen(Parallelogram, SolidAngle) spherical_rectangle 150 = seen(Rectangle, SolidAngle)
+        spherical_polygon 100 spherical_disk 100 = seen(Disk, SolidAngle) spherical_segment 150 = segment(0)
+        projected_segment 100 = segment(1) projected_triangle 50 = seen(Triangle, ProjectedSolidAngle) projected_polygon 50;
     surfaces: patch_surface 20;
-    lights: sphere_light 90 triangle_light 90 parallelogram_light 90 rectangle_light 90 disk_light 90 polygon_light 90 patch_light 90
-        line_light 90 point_light 140 spot_light 140 directional_light 140 sun_light 140 constant_light 140;
-    numbers: environment 300 piecewise_constant 500 light_choice 500 math 600 estimate 600 bits 600;
+    lights: sphere_light 90 = area_light(Sphere) triangle_light 90 = area_light(Triangle) parallelogram_light 90 = area_light(Parallelogram)
+        rectangle_light 90 = area_light(Rectangle) disk_light 90 = area_light(Disk) polygon_light 90 = area_light(Polygon)
+        patch_light 90 = area_light(Patch) line_light 90 = area_light(Line) point_light 140 = distant_light(PointLight, Delta)
+        spot_light 140 = distant_light(SpotLight, Delta) directional_light 140 = distant_light(DirectionalLight, Delta)
+        sun_light 140 = distant_light(Sun, SolidAngle) constant_light 140;
+    numbers: environment 300 piecewise_constant 500 light_choice 500 bits 600;
     pictures: pictures 200;
     skies: portals 30;
     light_tree: light_tree 20;
     reflections: reflection 200;
     sets: set_of_lights 60;
-    sequences: sequence 500 strata 100;
+    sequences: sequence 500;
 }
 
 /// The fuzzer's bytes, read as numbers at which methods break. Missing bytes are zeros.

@@ -5,7 +5,7 @@ mod regimes;
 
 use crate::packets::{lanes_of, twice, vectors_of};
 use etendue::select::{Choice, Gloss, Join, LightBound, LightChoice, LightTree, Node8, TreeAt, TreeChild};
-use etendue::{Real, Uint, f32x4, f32x8, f32x16, u32x4, u32x8, u32x16};
+use etendue::{Real, Uint, f32x4, f32x8, f32x16};
 pub use lamp::Lamp;
 pub use regimes::{Regime, place};
 
@@ -26,23 +26,6 @@ pub struct Grove {
     pub nodes: Vec<Node8>,
     /// The place of each light.
     pub places: Vec<u32>,
-}
-
-/// A fraction in digits of 16 bits, the first of which is the integer part.
-type Digits = Vec<u64>;
-
-fn times(mass: &[u64], share: u32) -> Digits {
-    let (mut product, mut carry) = (vec![0; mass.len() + 1], 0);
-    for (to, digit) in product[1..].iter_mut().zip(mass).rev() {
-        let all = digit * u64::from(share) + carry;
-        (*to, carry) = (all & 0xffff, all >> 16);
-    }
-    product[0] = carry;
-    product
-}
-
-fn value(digits: &[u64]) -> f64 {
-    digits.iter().rev().fold(0.0, |sum, &digit| sum / f64::from(WHOLE) + digit as f64)
 }
 
 /// A light that the walk over a tree has reached.
@@ -109,52 +92,36 @@ impl Grove {
         shares
     }
 
-    /// **Exact**: the probabilities of all lights and of none sum to 1 without any rounding, and each light's pmf is its own, rounded.
-    /// Returns the lights that can be chosen, and the probability that none is.
+    /// **Exact**: the probabilities of all lights and of none sum to 1 without any rounding, since the shares of every node do; and each light's
+    /// pmf is its own, rounded. Returns the lights that can be chosen, and the probability that none is.
     ///
     /// # Panics
     /// If that is not so.
     #[must_use]
     pub fn exact(&self, place: PointAndNormal) -> (Vec<Reached>, f64) {
         let at = self.at(place);
-        let (mut sum, mut none): ([Digits; 2], f64) = ([vec![0; LEVELS + 2], vec![0; LEVELS + 2]], 0.0);
-        let (mut reached, mut todo) = (Vec::new(), vec![(0, vec![1_u64])]);
-        let mut add = |which: usize, mass: &[u64]| sum[which].iter_mut().zip(mass).for_each(|(to, digit)| *to += digit);
-        while let Some((node, mass)) = todo.pop() {
-            let levels = mass.len();
+        let (mut none, mut reached, mut todo) = (0.0, Vec::new(), vec![(0, 1.0, 1)]);
+        while let Some((node, mass, levels)) = todo.pop() {
             assert!(levels <= LEVELS, "{levels} levels");
             let shares = self.shares(&at, node);
             if shares.iter().all(|(units, _)| *units == 0) {
-                add(0, &mass);
-                none += value(&mass);
+                none += mass;
             }
             for (units, child) in shares.into_iter().filter(|(units, _)| *units > 0) {
-                let mass = times(&mass, units);
+                let mass = mass * f64::from(units) / f64::from(WHOLE);
                 match child {
                     TreeChild::Light(light) => {
-                        add(1, &mass);
-                        let probability = value(&mass);
                         let pmf = f64::from(at.pmf(light));
-                        let least = probability.max(f64::from(f32::MIN_POSITIVE));
+                        let least = mass.max(f64::from(f32::MIN_POSITIVE));
                         let rounding = 1e-7 * levels as f64 * least;
-                        assert!(
-                            (pmf - least).abs() <= rounding,
-                            "light {light}: pmf {pmf:e}, {probability:e}: {place:?}"
-                        );
-                        reached.push(Reached { light, pmf: probability, levels });
+                        assert!((pmf - least).abs() <= rounding, "light {light}: pmf {pmf:e}, {mass:e}: {place:?}");
+                        reached.push(Reached { light, pmf: mass, levels });
                     }
-                    TreeChild::Node(node) => todo.push((node, mass)),
+                    TreeChild::Node(node) => todo.push((node, mass, levels + 1)),
                     TreeChild::Nothing => {}
                 }
             }
         }
-        let [none_digits, some] = sum;
-        let mut all: Digits = none_digits.iter().zip(&some).map(|(a, b)| a + b).collect();
-        for i in (1..all.len()).rev() {
-            all[i - 1] += all[i] >> 16;
-            all[i] &= 0xffff;
-        }
-        assert!(all[0] == 1 && all[1..].iter().all(|digit| *digit == 0), "Σ pmf: {all:?} at {place:?}");
         let mut lights: Vec<u32> = reached.iter().map(|reached| reached.light).collect();
         lights.sort_unstable();
         assert!(lights.windows(2).all(|two| two[0] < two[1]), "a light has two places");
@@ -173,48 +140,43 @@ impl Grove {
     /// # Panics
     /// If that is not so.
     pub fn choices(&self, places: &[PointAndNormal; 8], words: &[[u32; 2]; 8], us: &[f32; 8]) {
-        let tree = self.tree();
-        let [p, n] = [vectors_of::<f32x8>(|i| places[i].0), vectors_of(|i| places[i].1)];
-        let eight = tree.at(p, n);
-        let [p, n] = [vectors_of::<f32x4>(|i| places[i].0), vectors_of(|i| places[i].1)];
-        let four = tree.at(p, n);
-        let (all, all_words, all_us) = (twice(places), twice(words), twice(us));
-        let sixteen = tree.at(vectors_of::<f32x16>(|i| all[i].0), vectors_of(|i| all[i].1));
-        let wide = [
-            sixteen.choose_by([0, 1].map(|k| u32x16::from_fn(|i| all_words[i][k]))),
-            sixteen.choose(lanes_of(|i| f64::from(all_us[i]))),
-        ];
-        let by_bits = (
-            eight.choose_by([0, 1].map(|k| u32x8::from_fn(|i| words[i][k]))),
-            four.choose_by([0, 1].map(|k| u32x4::from_fn(|i| words[i][k]))),
-        );
-        let u = [lanes_of::<f32x8>(|i| f64::from(us[i]))];
-        let by_u = (eight.choose(u[0]), four.choose(lanes_of::<f32x4>(|i| f64::from(us[i]))));
-        let (pmf_of_bits, pmf_of_u) = (eight.pmf(by_bits.0.index), eight.pmf(by_u.0.index));
-        for i in 0..8 {
+        let alone = |i: usize| {
             let one = self.at(places[i]);
-            for (sixteen, eight, four, evaluated, one) in [
-                (&wide[0], &by_bits.0, &by_bits.1, pmf_of_bits, one.choose_by(words[i])),
-                (&wide[1], &by_u.0, &by_u.1, pmf_of_u, one.choose(us[i])),
-            ] {
-                self.one_choice(places[i], one);
-                let bits = figures(&one, 0);
-                for lane in [i, 15 - i] {
-                    assert_eq!(bits, figures(sixteen, lane), "lane {lane} of 16 at {places:?}");
-                }
-                assert_eq!(bits, figures(eight, i), "lane {i} of 8 at {places:?}");
-                assert!(i >= 4 || bits == figures(four, i), "lane {i} of 4 at {places:?}");
-                assert_eq!(evaluated.lane(i).to_bits(), one.pmf.to_bits(), "lane {i} at {places:?}");
+            [one.choose_by(words[i]), one.choose(us[i])].map(|choice| self.one_choice(places[i], choice))
+        };
+        let alone = core::array::from_fn(alone);
+        self.in_lanes::<f32x4>(places, words, us, &alone);
+        self.in_lanes::<f32x8>(places, words, us, &alone);
+        self.in_lanes::<f32x16>(places, words, us, &alone);
+    }
+    /// Whether packets choose what their lanes choose alone, with the same pmf, also evaluated. Sixteen lanes have all [`twice`].
+    fn in_lanes<R: Real<Scalar = f32>>(
+        &self,
+        places: &[PointAndNormal; 8],
+        words: &[[u32; 2]; 8],
+        us: &[f32; 8],
+        alone: &[[Choice<f32>; 2]; 8],
+    ) {
+        let (all, words, us, alone) = (twice(places), twice(words), twice(us), twice(alone));
+        let at = self.tree().at(vectors_of::<R>(|i| all[i].0), vectors_of(|i| all[i].1));
+        let by_words = at.choose_by([0, 1].map(|k| R::Uint::from_fn(|i| words[i][k])));
+        for (k, choice) in [by_words, at.choose(lanes_of(|i| us[i].into()))].iter().enumerate() {
+            let evaluated = at.pmf(choice.index);
+            for (i, alone) in alone.iter().enumerate().take(R::LANES) {
+                let one = &alone[k];
+                assert_eq!(figures(one, 0), figures(choice, i), "lane {i} of {} at {places:?}", R::LANES);
+                assert_eq!(evaluated.lane(i).to_bits(), one.pmf.to_bits(), "lane {i} of {} at {places:?}", R::LANES);
             }
         }
     }
-    fn one_choice(&self, place: PointAndNormal, choice: Choice<f32>) {
+    fn one_choice(&self, place: PointAndNormal, choice: Choice<f32>) -> Choice<f32> {
         let Choice { index, pmf, u } = choice;
         let evaluated = self.pmf(place, index);
         assert_eq!(evaluated.to_bits(), pmf.to_bits(), "two pmfs: {choice:?} {evaluated:e} at {place:?}");
         assert!((0.0..1.0).contains(&u) && (0.0..=1.0).contains(&pmf), "{choice:?} at {place:?}");
         assert_eq!(pmf == 0.0, index == LightTree::NO_LIGHT, "{choice:?} at {place:?}");
         assert!(index == LightTree::NO_LIGHT || (index as usize) < self.bounds.len(), "{choice:?} at {place:?}");
+        choice
     }
 
     /// **Gloss loses no light**: with it, the same lights have a pmf as without, and the pmf of a choice is the one that is evaluated.

@@ -1,7 +1,7 @@
 //! `etendue-judge`: judges samplers of lights. The exit code is 0 if all are right, 1 if one is wrong, and 2 if there is nothing to judge.
 
 use clap::{Args, Parser, Subcommand};
-use etendue_judge::child::{self, Task};
+use etendue_judge::child;
 use etendue_judge::lights::sampler::{Lacks, own};
 use etendue_judge::lights::verdict::{Effort, Judgement, judge};
 use etendue_judge::{numbers, page, proofs, textbook};
@@ -113,11 +113,8 @@ impl How {
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let done = match arguments.split_first() {
-        Some((first, rest)) if first == "child" => match Task::parse(rest) {
-            Some(task) => child::work(&task).map(|()| true),
-            None => Err("a child has other arguments".into()),
-        },
+    let done = match &arguments[..] {
+        [first, task] if first == "child" => child::work(task).map(|()| true),
         _ => run(&Options::parse()),
     };
     match done {

@@ -11,9 +11,11 @@ use std::sync::Once;
 
 /// The result of one property in one regime.
 #[derive(Clone, Debug)]
-pub struct Regime {
-    /// Its name, from [`generators`].
-    pub name: &'static str,
+pub struct Outcome {
+    /// The property.
+    pub property: &'static str,
+    /// The regime, from [`generators`].
+    pub regime: &'static str,
     /// Number of cases in which there was something to check.
     pub checked: usize,
     /// Greatest figure that the property returned, and the index of its case.
@@ -22,26 +24,6 @@ pub struct Regime {
     pub broken: usize,
     /// Message of the first of them.
     pub first: String,
-}
-
-/// The result of one property.
-#[derive(Clone, Debug)]
-pub struct PropertyOutcome {
-    /// Its name.
-    pub property: &'static str,
-    /// The result in each regime.
-    pub regimes: Vec<Regime>,
-}
-impl PropertyOutcome {
-    /// Greatest figure over all regimes.
-    #[must_use]
-    pub fn greatest(&self) -> f64 {
-        self.regimes.iter().map(|r| r.figure.error()).collect::<Greatest>().error()
-    }
-    /// The regimes in which the property was broken.
-    pub fn broken(&self) -> impl Iterator<Item = &Regime> {
-        self.regimes.iter().filter(|r| r.broken > 0)
-    }
 }
 
 thread_local! {
@@ -72,30 +54,28 @@ pub fn quietly<T>(run: impl FnOnce() -> T) -> Result<T, String> {
 }
 
 /// Runs one property over the cases, of which only the regimes are known; it returns `None` where there is nothing to check.
-fn each(property: &'static str, names: &[&'static str], run: &dyn Fn(usize) -> Option<f64>) -> PropertyOutcome {
-    let mut regimes: Vec<Regime> = Vec::new();
-    for (i, &name) in names.iter().enumerate() {
-        let at = regimes.iter().position(|r| r.name == name).unwrap_or_else(|| {
-            regimes.push(Regime { name, checked: 0, figure: Greatest::NONE, broken: 0, first: String::new() });
-            regimes.len() - 1
+fn each(property: &'static str, names: &[&'static str], run: &dyn Fn(usize) -> Option<f64>) -> Vec<Outcome> {
+    let mut all: Vec<Outcome> = Vec::new();
+    for (i, &regime) in names.iter().enumerate() {
+        let at = all.iter().position(|outcome| outcome.regime == regime).unwrap_or_else(|| {
+            let first = String::new();
+            all.push(Outcome { property, regime, checked: 0, figure: Greatest::NONE, broken: 0, first });
+            all.len() - 1
         });
-        let entry = &mut regimes[at];
-        match quietly(|| run(i)) {
-            Ok(Some(figure)) => {
-                entry.checked += 1;
-                entry.figure.take(figure, i);
-            }
-            Ok(None) => {}
+        let outcome = &mut all[at];
+        let result = quietly(|| run(i));
+        outcome.checked += usize::from(!matches!(result, Ok(None)));
+        match result {
+            Ok(figure) => figure.into_iter().for_each(|figure| outcome.figure.take(figure, i)),
             Err(message) => {
-                if entry.broken == 0 {
-                    entry.first = message;
+                if outcome.broken == 0 {
+                    outcome.first = message;
                 }
-                entry.checked += 1;
-                entry.broken += 1;
+                outcome.broken += 1;
             }
         }
     }
-    PropertyOutcome { property, regimes }
+    all
 }
 
 fn prepared<S: Fixture>(cases: &[Case<S>]) -> (Vec<&'static str>, Vec<Subject>) {
@@ -103,7 +83,7 @@ fn prepared<S: Fixture>(cases: &[Case<S>]) -> (Vec<&'static str>, Vec<Subject>) 
 }
 
 /// **Within reach**, alone: also for shapes that are too ill-conditioned for the other properties.
-pub fn within_reach<S: Fixture>(cases: &[Case<S>]) -> PropertyOutcome {
+pub fn within_reach<S: Fixture>(cases: &[Case<S>]) -> Vec<Outcome> {
     let square = generators::square(20, 2);
     let (names, subjects) = prepared(cases);
     let reach = |i: usize| square.iter().map(|&u| properties::within_reach(&subjects[i], u)).collect::<Greatest>();
@@ -111,12 +91,12 @@ pub fn within_reach<S: Fixture>(cases: &[Case<S>]) -> PropertyOutcome {
 }
 
 /// All properties over the cases, at the edges of the square and at `random` further points; in the quick tier, at every second of them.
-pub fn all<S: Fixture>(cases: &[Case<S>], random: usize) -> Vec<PropertyOutcome> {
+pub fn all<S: Fixture>(cases: &[Case<S>], random: usize) -> Vec<Outcome> {
     let square: Vec<_> = generators::square(random, 1).into_iter().step_by(tier::cases(2, 1)).collect();
     let (names, subjects) = prepared(cases);
     let is_scaled: Vec<bool> = cases.iter().map(|(_, s)| format!("{s:?}") != format!("{:?}", s.scaled(2.0))).collect();
     let mut all = of_subjects(&names, &subjects, &is_scaled, &square);
-    all.push(each("lanes", &names, &|i| {
+    all.extend(each("lanes", &names, &|i| {
         // each lane has another regime, and its own u
         let lanes = core::array::from_fn(|k| cases[(i + k * 3) % cases.len()].1);
         for start in (0..square.len() - 8).step_by(5) {
@@ -127,12 +107,7 @@ pub fn all<S: Fixture>(cases: &[Case<S>], random: usize) -> Vec<PropertyOutcome>
     all
 }
 /// The properties of one subject at a time, which are compiled once for all of them.
-fn of_subjects(
-    names: &[&'static str],
-    subjects: &[Subject],
-    is_scaled: &[bool],
-    square: &[[f32; 2]],
-) -> Vec<PropertyOutcome> {
+fn of_subjects(names: &[&'static str], subjects: &[Subject], is_scaled: &[bool], square: &[[f32; 2]]) -> Vec<Outcome> {
     type Pointwise = fn(&Subject, [f32; 2], &mut Random) -> Option<f64>;
     let pointwise: [(&'static str, Pointwise); 8] = [
         ("total", |s, u, _| {
@@ -162,8 +137,8 @@ fn of_subjects(
             (!checked.is_empty()).then(|| checked.into_iter().collect::<Greatest>().error())
         })
     };
-    let mut all: Vec<_> = pointwise.into_iter().map(at).collect();
-    all.push(each("integral", names, &|i| Some(properties::integral(&subjects[i]))));
-    all.push(each("chi-square", names, &|i| Some(properties::chi_square(&subjects[i], i as u64))));
+    let mut all: Vec<_> = pointwise.into_iter().flat_map(at).collect();
+    all.extend(each("integral", names, &|i| Some(properties::integral(&subjects[i]))));
+    all.extend(each("chi-square", names, &|i| Some(properties::chi_square(&subjects[i], i as u64))));
     all
 }

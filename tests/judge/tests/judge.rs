@@ -195,13 +195,11 @@ fn textbooks_are_found_wrong_where_they_are() {
             assert!(!right.iter().any(|value| at(*value)), "{name}: {figure:?} finds it at {axis:?} {right:?}");
         }
     }
-    // the cone by a series is right as seen from outside, its inverse apart
+    // the cone by a series is right as seen from outside
     let series = textbook::samplers().remove(1);
     let outside = changed(series, |light, sampler| {
-        if length(sub(wide(light.a), wide(light.p))) < f64::from(light.radius) {
-            return Prepared::OutsideOfDomain;
-        }
-        Prepared::Ready(Box::new(Faulty(*light, sampler, SOUND)))
+        let is_inside = length(sub(wide(light.a), wide(light.p))) < f64::from(light.radius);
+        if is_inside { Prepared::OutsideOfDomain } else { Prepared::Ready(sampler) }
     });
     assert!(judged(&outside, 1).is_right());
 }

@@ -69,18 +69,8 @@ fn samplers_without_a_map_or_a_pdf_are_judged_by_what_is_left() {
     says(&["run", &library("NO_PDF"), "--quick"], 0, "cone: right (");
     let path = folder.0.join("asked").display().to_string();
     let asked = folder.0.join("asked");
-    judge(&[
-        "ask",
-        &path,
-        "--shape",
-        "triangle",
-        "--measure",
-        "solid angle",
-        "--name",
-        "a shader",
-        "--no-pdf",
-        "--quick",
-    ]);
+    let ask = ["ask", &path, "--shape", "triangle", "--measure", "solid angle", "--name", "a shader"];
+    judge(&[&ask[..], &["--no-pdf", "--quick"]].concat());
     let [samples, _] = answer(&asked, "a shader", Lacks { map: false, pdf: true });
     samples.write(&asked.join("sample.npy")).unwrap();
     says(&["numbers", &path], 0, "a shader: right (");

@@ -24,8 +24,8 @@ fn clear(light: &AreaLight) -> bool {
 /// A ray hits the point of the sample: distance, normal and surface coordinates agree.
 #[test]
 fn a_hit_is_the_point_that_was_sampled() {
-    for kind in 0..AreaLight::KINDS.len() {
-        let (shape, by) = AreaLight::KINDS[kind];
+    for kind in 0..AreaLight::kinds().len() {
+        let (shape, by) = AreaLight::kinds()[kind];
         if shape == LightShape::Line {
             continue;
         }
@@ -64,9 +64,9 @@ fn a_hit_is_the_point_that_was_sampled() {
 /// Normals are unit vectors, and surface coordinates are in [0, 1], of samples at both ends of `u` too; of spheres in any unit of length.
 #[test]
 fn samples_know_a_normal_and_a_place() {
-    for kind in 0..AreaLight::KINDS.len() {
+    for kind in 0..AreaLight::kinds().len() {
         let mut random = Random::new(700 + kind as u64);
-        let powers: &[i32] = if AreaLight::KINDS[kind].0 == LightShape::Sphere { &[-90, 0, 60] } else { &[0] };
+        let powers: &[i32] = if AreaLight::kinds()[kind].0 == LightShape::Sphere { &[-90, 0, 60] } else { &[0] };
         for round in 0..400 {
             let light = AreaLight::any(kind, 20 * round, &mut random);
             let mut coordinate = || [0.0, 1.0 - f32::EPSILON / 2.0, random.unit()][random.word() as usize % 3];
@@ -288,8 +288,8 @@ fn what_is_no_number_gives_no_light() {
     ];
     let mut lost = [0; 2];
     for round in 0..20 {
-        for (shape, by) in AreaLight::KINDS.iter().copied().chain(others) {
-            let kind = AreaLight::KINDS.iter().position(|kind| *kind == (shape, by)).unwrap_or(0);
+        for (shape, by) in AreaLight::kinds().iter().copied().chain(others) {
+            let kind = AreaLight::kinds().iter().position(|kind| *kind == (shape, by)).unwrap_or(0);
             let light = AreaLight { shape, by, ..AreaLight::any(kind, round, &mut random) };
             let u = Vec2::new(random.unit(), random.unit());
             let (drawn, any) = (AreaLight::prepare::<f32>(&[light]).sample(u).direction, random.direction());

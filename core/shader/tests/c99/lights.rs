@@ -43,7 +43,7 @@ fn arguments(kind: usize, numbers: usize) -> Vec<Vec<f32>> {
     let mut random = Random::new(3600 + kind as u64);
     let slot = |round: usize| {
         // four lights without a surface are at the end of the list
-        let with_surface = kind < AreaLight::KINDS.len();
+        let with_surface = kind < AreaLight::kinds().len();
         let mut light = AreaLight::any(if with_surface { kind } else { 0 }, round as u32 / 3, &mut random);
         if round % 8 == 7 {
             match random.word() % 4 {

@@ -1,9 +1,8 @@
 //! Sequences, and the choice of lights.
-#![allow(clippy::needless_range_loop, reason = "several columns have the same index")]
 
 use super::input::{Input, fraction, unit, units};
 use super::memory::Memory;
-use super::{COUNTS, Column, Output, expected, same};
+use super::{COUNTS, Column, Output};
 use etendue_c::*;
 use std::ptr::{null, null_mut};
 
@@ -21,7 +20,7 @@ pub(super) fn sequence(input: &mut Input<'_>) {
         samples: null(),
     };
     let words: [Vec<f32>; 2] = input.columns(n, |x| x);
-    let words_memory = Memory::of(input, &[&words[0], &words[1]]);
+    let words_memory = Memory::of(input, &words);
     let [pixels, samples]: [Column; 2] = words_memory.inputs();
     let has = [input.below(2) == 1, input.below(2) == 1];
     let given = EtendueCounters {
@@ -49,9 +48,7 @@ pub(super) fn sequence(input: &mut Input<'_>) {
         1 => pairs(&given, n, null()),
         _ => pairs(&given, n, outputs.as_ptr()),
     };
-    assert_eq!(status, expected(n, null_at < 2));
-    memory.only(if null_at < 2 { &[] } else { &widths });
-    for i in 0..if null_at < 2 { 0 } else { n } {
+    memory.has(status, null_at < 2, &widths, true, |i| {
         let one = EtendueCounters {
             pixel: if has[0] { words[0][i].to_bits() } else { counters.pixel },
             sample: if has[1] { words[1][i].to_bits() } else { counters.sample.wrapping_add(i as u32) },
@@ -60,10 +57,9 @@ pub(super) fn sequence(input: &mut Input<'_>) {
         let mut u = [0.0_f32; 2];
         let [x, y] = &mut u;
         assert_eq!(pairs(&one, 1, [&raw mut *x, &raw mut *y].as_ptr()), EtendueStatus::Ok);
-        for k in 0..2 {
-            assert!((0.0..1.0).contains(&u[k]) && (widths[k] == 0 || same(memory.get(k, i), u[k])));
-        }
-    }
+        assert!(u.iter().all(|u| (0.0..1.0).contains(u)), "{u:?}");
+        Some(u.to_vec())
+    });
 }
 
 /// Calls the functions of the light tree.
@@ -110,7 +106,8 @@ pub(super) fn tree(input: &mut Input<'_>) {
         let last: [u32; 90] = std::mem::transmute(nodes[node_count]);
         assert_eq!(last, [0xA5A5_A5A5; 90]);
 
-        let memory_in = Memory::of(input, &[&p[0], &p[1], &p[2], &normals[0], &normals[1], &normals[2], &u]);
+        let given = [&p[..], &normals, &[u]].concat();
+        let memory_in = Memory::of(input, &given);
         let mut columns: [Column; 7] = memory_in.inputs();
         let is_null = null_at < 7;
         if is_null {
@@ -125,32 +122,36 @@ pub(super) fn tree(input: &mut Input<'_>) {
         }
         let out = EtendueChoiceColumns { light: outputs[0].cast(), pmf: outputs[1], u: outputs[2] };
         let (p_in, n_in) = (columns.as_ptr(), columns[3..].as_ptr());
-        assert_eq!(etendue_light_tree_choose_batch(&tree, n, p_in, n_in, columns[6], &out), expected(n, is_null));
-        memory.only(if is_null { &[] } else { &widths });
-        if is_null {
-            return;
-        }
-        // without the column of lights, its canaries are indices of no light
-        assert_eq!(etendue_light_tree_pmf_batch(&tree, n, p_in, n_in, chosen.cast(), outputs[3]), EtendueStatus::Ok);
-        for i in 0..n {
+        let status = etendue_light_tree_choose_batch(&tree, n, p_in, n_in, columns[6], &out);
+        let alone = |i: usize| {
             let (mut light, mut pmf, mut rest, mut again) = (0_u32, 0.0_f32, 0.0_f32, 0.0_f32);
             let one = EtendueChoiceColumns { light: &mut light, pmf: &mut pmf, u: &mut rest };
-            let at: [Column; 7] = std::array::from_fn(|k| {
-                [&p[0], &p[1], &p[2], &normals[0], &normals[1], &normals[2], &u][k][i..].as_ptr()
-            });
+            let at: [Column; 7] = std::array::from_fn(|k| given[k][i..].as_ptr());
             let (p_in, n_in) = (at.as_ptr(), at[3..].as_ptr());
             assert_eq!(etendue_light_tree_choose_batch(&tree, 1, p_in, n_in, at[6], &one), EtendueStatus::Ok);
             assert_eq!(etendue_light_tree_pmf_batch(&tree, 1, p_in, n_in, &light, &mut again), EtendueStatus::Ok);
-            assert!(same(pmf, again) && (0.0..=1.0).contains(&pmf), "chosen with {pmf}, which is {again}");
+            assert!(
+                pmf.to_bits() == again.to_bits() && (0.0..=1.0).contains(&pmf),
+                "chosen with {pmf}, which is {again}"
+            );
             assert!(if light == u32::MAX {
                 pmf == 0.0
             } else {
                 (light as usize) < light_count && lights[light as usize].power > 0.0
             });
-            assert!(widths[0] == 0 || memory.get(0, i).to_bits() == light);
-            assert!(widths[1] == 0 || same(memory.get(1, i), pmf));
-            assert!(widths[2] == 0 || same(memory.get(2, i), rest));
-            assert!(same(memory.get(3, i), if widths[0] == 0 { 0.0 } else { pmf }));
+            Some(vec![f32::from_bits(light), pmf, rest])
+        };
+        memory.has(status, is_null, &widths, false, alone);
+        if !is_null {
+            // without the column of lights, its canaries are indices of no light
+            assert_eq!(
+                etendue_light_tree_pmf_batch(&tree, n, p_in, n_in, chosen.cast(), outputs[3]),
+                EtendueStatus::Ok
+            );
+            for i in 0..n {
+                let pmf = if widths[0] == 0 { Some(0.0) } else { alone(i).map(|choice| choice[1]) };
+                assert_eq!(Some(memory.get(3, i)), pmf);
+            }
         }
     }
 }

@@ -1,9 +1,8 @@
 //! The functions of warps.
-#![allow(clippy::needless_range_loop, reason = "several columns have the same index")]
 
 use super::input::{Input, fraction, unit};
 use super::memory::Memory;
-use super::{COUNTS, Column, Output, all_finite, expected, same, total};
+use super::{COUNTS, Column, Output, all_finite};
 use etendue_c::*;
 use std::ptr::{null, null_mut};
 
@@ -38,7 +37,7 @@ pub(super) fn check(input: &mut Input<'_>, index: usize) {
     let u: [Vec<f32>; 2] = input.columns(n, fraction);
     let x: [Vec<f32>; 3] = input.columns(n, |x| x);
     let is_finite = all_finite(&[&parameters, &u[0], &u[1], &x[0], &x[1], &x[2]]);
-    let (u_memory, x_memory) = (Memory::of(input, &[&u[0], &u[1]]), Memory::of(input, &[&x[0], &x[1], &x[2]]));
+    let (u_memory, x_memory) = (Memory::of(input, &u), Memory::of(input, &x));
     let mut memory = Memory::new(input, 3, n);
     // SAFETY of all calls: pointers are null or to as many numbers as the header demands
     unsafe {
@@ -71,47 +70,30 @@ pub(super) fn check(input: &mut Input<'_>, index: usize) {
         if null_at > 12 {
             (outputs[null_at - 13], widths[null_at - 13]) = (null_mut(), 0);
         }
-        let written = match call {
-            0 => {
-                let status = etendue_warp_sample_batch(number, self_in.cast(), n, u_in.as_ptr(), outputs.as_ptr());
-                assert_eq!(status, expected(n, missing(2)));
-                if status == EtendueStatus::Ok { t.coordinates } else { 0 }
-            }
-            1 => {
-                let status = etendue_warp_invert_batch(number, self_in.cast(), n, x_in.as_ptr(), outputs.as_ptr());
-                assert_eq!(status, expected(n, missing(t.coordinates)));
-                if status == EtendueStatus::Ok { 2 } else { 0 }
-            }
+        let (outputs, u_in, x_in) = (outputs.as_ptr(), u_in.as_ptr(), x_in.as_ptr());
+        let (status, is_null, written) = match call {
+            0 => (etendue_warp_sample_batch(number, self_in.cast(), n, u_in, outputs), missing(2), t.coordinates),
+            1 => (etendue_warp_invert_batch(number, self_in.cast(), n, x_in, outputs), missing(t.coordinates), 2),
             _ => {
-                let status = etendue_warp_pdf_batch(number, self_in.cast(), n, x_in.as_ptr(), outputs[0]);
-                assert_eq!(status, expected(n, missing(t.coordinates) || widths[0] == 0));
-                usize::from(status == EtendueStatus::Ok)
+                let status = etendue_warp_pdf_batch(number, self_in.cast(), n, x_in, *outputs);
+                (status, missing(t.coordinates) || widths[0] == 0, 1)
             }
         };
-        memory.only(&widths[..written]);
-        for i in 0..if written > 0 { n } else { 0 } {
-            let (u_i, x_i) = ([u[0][i], u[1][i]], [x[0][i], x[1][i], x[2][i]]);
+        memory.has(status, is_null, &widths[..written], is_finite, |i| {
+            let (u, x) = (u.each_ref().map(|u| u[i]), x.each_ref().map(|x| x[i]));
             let mut one = [0.0; 3];
-            match call {
-                0 => {
-                    let status = etendue_warp_sample(number, own.cast(), u_i.as_ptr(), one.as_mut_ptr());
-                    // a single call refuses numbers that a batch maps to anything
-                    let is_inside = u_i.iter().all(|u| (0.0..1.0).contains(u));
-                    assert_eq!(status, if is_inside { EtendueStatus::Ok } else { EtendueStatus::Value });
-                    if !is_inside {
-                        continue;
-                    }
-                }
-                1 => assert_eq!(
-                    etendue_warp_invert(number, own.cast(), x_i.as_ptr(), one.as_mut_ptr()),
+            let status = match call {
+                0 => etendue_warp_sample(number, own.cast(), u.as_ptr(), one.as_mut_ptr()),
+                1 => etendue_warp_invert(number, own.cast(), x.as_ptr(), one.as_mut_ptr()),
+                _ => {
+                    one[0] = etendue_warp_pdf(number, own.cast(), x.as_ptr());
                     EtendueStatus::Ok
-                ),
-                _ => one[0] = etendue_warp_pdf(number, own.cast(), x_i.as_ptr()),
-            }
-            for k in 0..written {
-                assert!(widths[k] == 0 || same(memory.get(k, i), one[k]), "column {k} of element {i}");
-            }
-            total(is_finite, one);
-        }
+                }
+            };
+            // a single call refuses numbers that a batch maps to anything
+            let is_refused = call == 0 && !u.iter().all(|u| (0.0..1.0).contains(u));
+            assert_eq!(status, if is_refused { EtendueStatus::Value } else { EtendueStatus::Ok });
+            (!is_refused).then(|| one.to_vec())
+        });
     }
 }

@@ -10,27 +10,9 @@ use crate::truths::Round;
 use etendue::{ConstantEnvironment, LightSampler, Real};
 use etendue_oracle::{V3, cross, dot, length, sub, wide};
 
-macro_rules! area_lights {
-    ($($target:ident: $shape:ident;)+) => {$(
-        pub(super) fn $target(input: &mut Input<'_>) {
-            area_light(LightShape::$shape, input);
-        }
-    )+};
-}
-area_lights! {
-    sphere_light: Sphere;
-    triangle_light: Triangle;
-    parallelogram_light: Parallelogram;
-    rectangle_light: Rectangle;
-    disk_light: Disk;
-    polygon_light: Polygon;
-    patch_light: Patch;
-    line_light: Line;
-}
-
 /// A shape by any of its techniques: packets of eight that mix two lights.
-fn area_light(shape: LightShape, input: &mut Input<'_>) {
-    let techniques: Vec<_> = AreaLight::KINDS.iter().filter(|kind| kind.0 == shape).collect();
+pub(super) fn area_light(shape: LightShape, input: &mut Input<'_>) {
+    let techniques: Vec<_> = AreaLight::kinds().iter().filter(|kind| kind.0 == shape).collect();
     let by = techniques[input.below(techniques.len() as u8) as usize].1;
     let (light, u) = mixed(input, |input| {
         let p = input.vector(&[]);
@@ -82,24 +64,14 @@ fn mixed<S: Fixture>(input: &mut Input<'_>, any: impl Fn(&mut Input<'_>) -> S) -
     first
 }
 
-macro_rules! distant_lights {
-    ($($target:ident: $shape:ident, $by:ident;)+) => {$(
-        pub(super) fn $target(input: &mut Input<'_>) {
-            let (light, u) = mixed(input, |input| {
-                let (p, b) = (input.vector(&[]), input.direction());
-                let (a, c) = (input.vector(&[p]), [input.number(), 0.0, 0.0]);
-                let light = AreaLight::seen(LightShape::$shape, Measure::$by, [a, b, c], b);
-                AreaLight { p, radius: input.number(), ..light }
-            });
-            properties::one_pdf(&light, &*AreaLight::prepare(&[light]), u);
-        }
-    )+};
-}
-distant_lights! {
-    point_light: PointLight, Delta;
-    spot_light: SpotLight, Delta;
-    directional_light: DirectionalLight, Delta;
-    sun_light: Sun, SolidAngle;
+/// A delta light or a sun of any numbers.
+pub(super) fn distant_light(shape: LightShape, by: Measure, input: &mut Input<'_>) {
+    let (light, u) = mixed(input, |input| {
+        let (p, b) = (input.vector(&[]), input.direction());
+        let (a, c) = (input.vector(&[p]), [input.number(), 0.0, 0.0]);
+        AreaLight { p, radius: input.number(), ..AreaLight::seen(shape, by, [a, b, c], b) }
+    });
+    properties::one_pdf(&light, &*AreaLight::prepare(&[light]), u);
 }
 
 /// The sky of one radiance, by solid angle, or by projected solid angle where there is a normal: the inside of a sphere.

@@ -1,13 +1,9 @@
-//! Tables, choices of lights, elementary functions and estimators.
+//! Tables, choices of lights, masks and counters.
 
 use super::Input;
-use crate::checks;
 use crate::packets::{squares_of, twice, vectors_of};
-use core::f64::consts::PI;
 use etendue::discrete::{PiecewiseConstant1d, PiecewiseConstant2d, TableError};
-use etendue::estimate::{Heuristic, Welford};
 use etendue::light::{EnvironmentMap, ImageEnvironment};
-use etendue::math::{difference_of_products, one_minus_cos, rsqrt};
 use etendue::select::{Choice, LightBound, LightChoice, SpatialLights, UniformLights};
 use etendue::{Mask, Real, Uint, Vec2, Vec3, Warp, f32x4, f32x8, f32x16};
 use etendue_oracle::{dot, length, sub};
@@ -182,91 +178,6 @@ pub(super) fn light_choice(input: &mut Input<'_>) {
         assert!(!(facing && away && above && *power > 0.0) || *able > 0.0, "{bound:?} from {p:?} over {n:?} is lost");
     }
     chosen(one.choose(u), |k| one.pmf(k), eight.choose(f32x8::splat(u)), &able);
-}
-
-/// Elementary functions: within the documented errors in the documented domains, finite everywhere, identical in every lane.
-pub(super) fn math(input: &mut Input<'_>) {
-    let (x, y, z, w) = (input.number(), input.number(), input.number(), input.number());
-    let (dx, dy) = (f64::from(x), f64::from(y));
-    let close = |name: &str, value: f32, truth: f64, relative: f64, absolute: f64| {
-        let off = (f64::from(value) - truth).abs();
-        assert!(off <= relative * truth.abs() + absolute, "{name} of {x:e}, {y:e}: {value:e}, truth {truth:e}");
-    };
-    let same = |name: &str, one: f32, eight: f32x8, sixteen: f32x16| {
-        let lanes = [eight.lane(7), sixteen.lane(13)];
-        assert!(lanes.map(f32::to_bits) == [one.to_bits(); 2], "{name} of {x:e}, {y:e}: {one:e}, {lanes:?}");
-    };
-    let (x8, y8, x16, y16) = (f32x8::splat(x), f32x8::splat(y), f32x16::splat(x), f32x16::splat(y));
-    let angle = Real::atan2(y, x);
-    // a subnormal angle is rounded to the subnormal grid, and so is the bound of the octant if both numbers are a few steps of 2⁻¹⁴⁹
-    let largest = x.abs().max(y.abs());
-    if largest <= 1e30 {
-        let relative = if largest < 9e-44 { 5.2e-6 } else { 2.0e-7 };
-        close("atan2", angle, if x == 0.0 && y == 0.0 { 0.0 } else { dy.atan2(dx) }, relative, 3e-45);
-    }
-    same("atan2", angle, Real::atan2(y8, x8), Real::atan2(y16, x16));
-    assert!(angle == 0.0 || angle.is_sign_negative() == y.is_sign_negative());
-    close("acos", Real::acos(x), dx.clamp(-1.0, 1.0).acos(), 2.1e-7, 0.0);
-    same("acos", Real::acos(x), Real::acos(x8), Real::acos(x16));
-    if x == 0.0 || x > 8e-31 {
-        close("cbrt", Real::cbrt(x), dx.cbrt(), 7.9e-8, 0.0);
-        same("cbrt", Real::cbrt(x), Real::cbrt(x8), Real::cbrt(x16));
-    }
-    let u = input.unit();
-    let (sin, cos) = Real::sin_cos_turns(u);
-    let (eight, sixteen) = (f32x8::splat(u).sin_cos_turns(), f32x16::splat(u).sin_cos_turns());
-    same("sin", sin, eight.0, sixteen.0);
-    same("cos", cos, eight.1, sixteen.1);
-    let (s, c) = (2.0 * PI * f64::from(u)).sin_cos();
-    close("sin", sin, s, 0.0, 8.4e-8);
-    close("cos", cos, c, 0.0, 8.4e-8);
-    close("one_minus_cos", one_minus_cos(u), f64::from(u) / (1.0 + (1.0 - f64::from(u)).sqrt()), 1.1e-7, 0.0);
-    if (1e-30..1e30).contains(&x) {
-        close("rsqrt", rsqrt(x), 1.0 / dx.sqrt(), 9.0e-8, 0.0);
-        let unit = f64::from(x.pow2_scale());
-        assert!((1.0..4.0).contains(&(dx * unit)) && unit.log2().fract() == 0.0, "{x:e}: {unit:e}");
-    }
-    assert!(x.pow2_scale().is_finite() && x.pow2_scale() > 0.0);
-    let fair = |x: f32| x == 0.0 || (1e-9..1e9).contains(&x.abs());
-    if [x, y, z, w].into_iter().all(fair) {
-        let value = difference_of_products(x, y, z, w);
-        let (dz, dw) = (f64::from(z), f64::from(w));
-        // each product has 48 bits, their difference may have more
-        let truth = dx * dy - dz * dw;
-        let rest = (dx * dy).abs().max((dz * dw).abs()) * f64::EPSILON;
-        close("difference_of_products", value, truth, 1.5 / 8_388_608.0, rest);
-    }
-}
-
-/// MIS weights and running variances of any numbers.
-pub(super) fn estimate(input: &mut Input<'_>) {
-    let heuristic = match input.below(4) {
-        0 => Heuristic::Balance,
-        1 => Heuristic::Maximum,
-        2 => Heuristic::POWER,
-        _ => Heuristic::Power(u32::from(input.below(20))),
-    };
-    let mut density = || if input.below(12) == 0 { f32::INFINITY } else { input.weight() };
-    let (two, four) = ([(); 2].map(|()| density()), [(); 4].map(|()| density()));
-    checks::weights_sum_to_one(heuristic, &two, &heuristic.weights(two));
-    let weights = heuristic.weights(four);
-    // one more rounding than with three techniques
-    let sum: f64 = weights.iter().map(|&w| f64::from(w)).sum();
-    let some = four.iter().any(|d| *d > 0.0);
-    assert!((sum - f64::from(u8::from(some))).abs() < 4.8e-7, "{heuristic:?} {four:?}: {weights:?}");
-    let eight = heuristic.weights(four.map(f32x8::splat));
-    assert_eq!(eight.map(|w| w.lane(2).to_bits()), weights.map(f32::to_bits), "{heuristic:?} {four:?}");
-
-    let samples: Vec<f32> = (0..input.below(20)).map(|_| input.ordinary()).collect();
-    let mut welford = Welford::<f64>::default();
-    for &x in &samples {
-        welford.push(f64::from(x));
-    }
-    if samples.len() > 1 {
-        let (mean, variance) = crate::stats::mean_variance(&samples.iter().map(|&x| f64::from(x)).collect::<Vec<_>>());
-        let off = (welford.mean() - mean).abs().max((welford.variance() - variance).abs());
-        assert!(off < 1e-13, "{samples:?}: off by {off:e}");
-    }
 }
 
 /// Masks and counters: every lane equals the scalar result.

@@ -128,26 +128,8 @@ fn regime<S: Fixture>((name, s): Case<S>, holds: Holds, u: [f32; 2], mut random:
     }
 }
 
-macro_rules! seen {
-    ($($target:ident: $($shape:ident by $by:ident),+;)+) => {$(
-        pub(super) fn $target(input: &mut Input<'_>) {
-            let kinds = [$((LightShape::$shape, Measure::$by)),+];
-            let kind = if kinds.len() > 1 { input.below(kinds.len() as u8) } else { 0 };
-            seen(kinds[usize::from(kind)], input);
-        }
-    )+};
-}
-seen! {
-    spherical_cap: Sphere by SolidAngle;
-    projected_cap: Sphere by ProjectedSolidAngle;
-    spherical_triangle: Triangle by SolidAngle;
-    spherical_parallelogram: Parallelogram by SolidAngle;
-    spherical_rectangle: Rectangle by SolidAngle;
-    spherical_disk: Disk by SolidAngle;
-    projected_triangle: Triangle by ProjectedSolidAngle;
-}
 /// A light of any numbers, rectangles without right angles included, and one from a regime.
-fn seen((shape, by): (LightShape, Measure), input: &mut Input<'_>) {
+pub(super) fn seen(shape: LightShape, by: Measure, input: &mut Input<'_>) {
     let (u, a) = (input.square(), input.vector(&[]));
     let is_round = shape == LightShape::Sphere || shape == LightShape::Disk;
     let b = if shape == LightShape::Disk { input.direction() } else { input.vector(&[a]) };
@@ -195,18 +177,11 @@ pub(super) fn projected_polygon(input: &mut Input<'_>) {
         let case = input.case(cases);
         regime(case, over_horizon(LightShape::Polygon, case.0), u, input.points());
     }
-    seen((LightShape::Parallelogram, Measure::ProjectedSolidAngle), input);
+    seen(LightShape::Parallelogram, Measure::ProjectedSolidAngle, input);
 }
 
-/// Line segments.
-pub(super) fn spherical_segment(input: &mut Input<'_>) {
-    segment(0, input);
-}
-/// Line segments over a horizon.
-pub(super) fn projected_segment(input: &mut Input<'_>) {
-    segment(1, input);
-}
-fn segment(which: usize, input: &mut Input<'_>) {
+/// Line segments, or, with 1, those over a horizon.
+pub(super) fn segment(which: usize, input: &mut Input<'_>) {
     let (u, a) = (input.square(), input.vector(&[]));
     let ends = [a, input.vector(&[a])];
     let normal = (which == 1).then(|| input.direction());

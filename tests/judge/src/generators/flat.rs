@@ -40,31 +40,23 @@ pub(super) fn flats(each: usize, mut random: Random) -> Vec<Case<Flat>> {
         push("near-hemisphere 30", &mut |r, a| facing(r, a, 30.0, 3.0));
         push("near-hemisphere 1e3", &mut |r, a| facing(r, a, 1e3, 30.0));
         push("near-hemisphere 1e5", &mut |r, a| facing(r, a, 1e5, 1e3));
-        push("oblique", &mut |r, a| {
-            let v0 = combine(&a, r.range(-1.0, 1.0), 2.0, 1.0);
-            [v0, combine(&a, 1.0, 0.2, 0.6), combine(&a, -0.5, 0.4, -0.8)]
-        });
-        push("grazing 1e-2", &mut |r, a| {
-            [combine(&a, r.range(-1.0, 1.0), 2.0, 1e-2), combine(&a, 1.0, 0.2, 0.0), combine(&a, 0.3, 1.0, 0.0)]
-        });
-        push("grazing 1e-4", &mut |r, a| {
-            [combine(&a, r.range(-1.0, 1.0), 2.0, 1e-4), combine(&a, 1.0, 0.2, 0.0), combine(&a, 0.3, 1.0, 0.0)]
-        });
-        push("sliver 1e2", &mut |r, a| {
-            [combine(&a, -0.5, r.range(-1.0, 1.0), 1.0), combine(&a, 1.0, 0.0, 0.0), combine(&a, 0.5, 1e-2, 0.0)]
-        });
-        push("sliver 1e4", &mut |r, a| {
-            [combine(&a, -0.5, r.range(-1.0, 1.0), 1.0), combine(&a, 1.0, 0.0, 0.0), combine(&a, 0.5, 1e-4, 0.0)]
-        });
-        push("sliver 1e4 from its end", &mut |r, a| {
-            [combine(&a, r.range(0.1, 1.0), 0.0, 1.0), combine(&a, 1e-4, 0.0, 0.0), combine(&a, 0.0, 1.0, 0.0)]
-        });
-        push("near a vertex", &mut |r, a| {
-            [combine(&a, 1e-3 * r.range(-1.0, 1.0), 1e-3, 1e-3), combine(&a, 1.0, 0.0, 0.0), combine(&a, 0.3, 0.9, 0.0)]
-        });
-        push("near an edge", &mut |r, a| {
-            [combine(&a, -0.5, 1e-3 * r.range(-1.0, 1.0), 1e-3), combine(&a, 1.0, 0.0, 0.0), combine(&a, 0.3, 0.9, 0.0)]
-        });
+        // an axis along which the corner is moved at random, from where to 1 and in which unit; the corner and the edges
+        for (name, (axis, low, unit), place) in [
+            ("oblique", (0, -1.0, 1.0), [[0.0, 2.0, 1.0], [1.0, 0.2, 0.6], [-0.5, 0.4, -0.8]]),
+            ("grazing 1e-2", (0, -1.0, 1.0), [[0.0, 2.0, 1e-2], [1.0, 0.2, 0.0], [0.3, 1.0, 0.0]]),
+            ("grazing 1e-4", (0, -1.0, 1.0), [[0.0, 2.0, 1e-4], [1.0, 0.2, 0.0], [0.3, 1.0, 0.0]]),
+            ("sliver 1e2", (1, -1.0, 1.0), [[-0.5, 0.0, 1.0], [1.0, 0.0, 0.0], [0.5, 1e-2, 0.0]]),
+            ("sliver 1e4", (1, -1.0, 1.0), [[-0.5, 0.0, 1.0], [1.0, 0.0, 0.0], [0.5, 1e-4, 0.0]]),
+            ("sliver 1e4 from its end", (0, 0.1, 1.0), [[0.0, 0.0, 1.0], [1e-4, 0.0, 0.0], [0.0, 1.0, 0.0]]),
+            ("near a vertex", (0, -1.0, 1e-3), [[0.0, 1e-3, 1e-3], [1.0, 0.0, 0.0], [0.3, 0.9, 0.0]]),
+            ("near an edge", (1, -1.0, 1e-3), [[-0.5, 0.0, 1e-3], [1.0, 0.0, 0.0], [0.3, 0.9, 0.0]]),
+        ] {
+            push(name, &mut |r, a| {
+                let mut place = place;
+                place[0][axis] = unit * r.range(low, 1.0);
+                place.map(|[x, y, z]| combine(&a, x, y, z))
+            });
+        }
     }
     all
 }
@@ -185,25 +177,31 @@ pub(super) fn on_ellipse<const N: usize>(
     })
 }
 
-/// Convex hexagons, from the semi-axes and the centre of their circumscribed ellipse.
-#[must_use]
-pub fn hexagons(each: usize, numbers: impl Into<Random>) -> Vec<Case<Corners<6>>> {
-    let mut random: Random = numbers.into();
+/// The semi-axes and the centre of the ellipse about a polygon, and the normal of a surface at the viewpoint.
+pub(super) type Row = (&'static str, [f64; 2], [f64; 3], Option<[f64; 3]>);
+/// Convex polygons that are seen from the origin.
+pub(super) fn polygons<const N: usize>(each: usize, mut random: Random, rows: &[Row]) -> Vec<Case<Corners<N>>> {
     let mut all = Vec::new();
-    for _ in 0..each {
-        for (name, size, center) in [
-            ("ordinary", [0.6, 0.4], [0.2, 0.3, 1.0]),
-            ("tiny 1e-3", [1e-3, 1e-3], [0.2, 0.3, 1.0]),
-            ("close", [3.0, 2.0], [0.5, -0.3, 0.7]),
-            ("near-hemisphere", [30.0, 20.0], [1.0, 2.0, 1.0]),
-            ("grazing 1e-2", [1.0, 1.0], [3.0, 0.0, 1e-2]),
-            ("sliver 1e2", [0.5, 5e-3], [0.1, 0.2, 1.0]),
-        ] {
-            let corners = on_ellipse(&frame(&mut random), size, center, &mut random);
-            all.push((name, Corners { corners, point: [0.0; 3], normal: None }));
-        }
+    for &(name, size, center, normal) in (0..each).flat_map(|_| rows) {
+        let axes = frame(&mut random);
+        let corners = on_ellipse(&axes, size, center, &mut random);
+        let normal = normal.map(|[x, y, z]| narrow(etendue_oracle::unit(combine(&axes, x, y, z))));
+        all.push((name, Corners { corners, point: [0.0; 3], normal }));
     }
     all
+}
+/// Convex hexagons.
+#[must_use]
+pub fn hexagons(each: usize, numbers: impl Into<Random>) -> Vec<Case<Corners<6>>> {
+    let rows = [
+        ("ordinary", [0.6, 0.4], [0.2, 0.3, 1.0], None),
+        ("tiny 1e-3", [1e-3, 1e-3], [0.2, 0.3, 1.0], None),
+        ("close", [3.0, 2.0], [0.5, -0.3, 0.7], None),
+        ("near-hemisphere", [30.0, 20.0], [1.0, 2.0, 1.0], None),
+        ("grazing 1e-2", [1.0, 1.0], [3.0, 0.0, 1e-2], None),
+        ("sliver 1e2", [0.5, 5e-3], [0.1, 0.2, 1.0], None),
+    ];
+    polygons(each, numbers.into(), &rows)
 }
 
 /// Convex hexagons of every size, in coordinates about their own centre, as the corners of a small one in a large scene have their digits.

@@ -1,6 +1,6 @@
 //! Flat shapes over a horizon.
 
-use super::flat::on_ellipse;
+use super::flat::{on_ellipse, polygons};
 use super::{Case, Random, combine, frame, narrow};
 use crate::fixtures::Corners;
 use libm::{cos, sin};
@@ -107,24 +107,15 @@ pub(super) fn over_horizon(each: usize, mut random: Random) -> Vec<Case<[[f32; 3
 /// Convex pentagons relative to a horizon.
 #[must_use]
 pub fn projected_pentagons(each: usize, numbers: impl Into<Random>) -> Vec<Case<Corners<5>>> {
-    let mut random: Random = numbers.into();
-    let mut all = Vec::new();
-    for _ in 0..each {
-        for (name, size, center, normal) in [
-            ("ordinary", [0.6, 0.4], [0.2, 0.3, 1.0], [0.3, 0.2, 0.8]),
-            ("small 1e-2", [1e-2, 1e-2], [0.2, 0.3, 1.0], [0.3, -0.2, 0.8]),
-            ("cut", [0.6, 0.4], [0.2, 0.3, 1.0], [1.0, 0.0, -0.1]),
-            ("close", [3.0, 2.0], [0.5, -0.3, 0.7], [1.0, 0.5, 0.3]),
-            ("zenith inside", [3.0, 2.0], [0.5, -0.3, 0.7], [0.1, 0.2, 1.0]),
-            ("grazing 1e-1", [1.0, 1.0], [3.0, 0.0, 1e-1], [0.5, 0.2, 0.8]),
-        ] {
-            let axes = frame(&mut random);
-            let corners = on_ellipse(&axes, size, center, &mut random);
-            let normal = Some(narrow(etendue_oracle::unit(combine(&axes, normal[0], normal[1], normal[2]))));
-            all.push((name, Corners { corners, point: [0.0; 3], normal }));
-        }
-    }
-    all
+    let rows = [
+        ("ordinary", [0.6, 0.4], [0.2, 0.3, 1.0], Some([0.3, 0.2, 0.8])),
+        ("small 1e-2", [1e-2, 1e-2], [0.2, 0.3, 1.0], Some([0.3, -0.2, 0.8])),
+        ("cut", [0.6, 0.4], [0.2, 0.3, 1.0], Some([1.0, 0.0, -0.1])),
+        ("close", [3.0, 2.0], [0.5, -0.3, 0.7], Some([1.0, 0.5, 0.3])),
+        ("zenith inside", [3.0, 2.0], [0.5, -0.3, 0.7], Some([0.1, 0.2, 1.0])),
+        ("grazing 1e-1", [1.0, 1.0], [3.0, 0.0, 1e-1], Some([0.5, 0.2, 0.8])),
+    ];
+    polygons(each, numbers.into(), &rows)
 }
 
 /// Convex pentagons of every size relative to a horizon, in coordinates about their own centre.

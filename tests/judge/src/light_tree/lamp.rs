@@ -88,7 +88,7 @@ impl Lamp {
             LightShape::SpotLight => vec![AreaLight { c: [c, 0.0, 0.0], radius, ..light }],
             shape => {
                 let measures = [Measure::Area, Measure::SolidAngle, Measure::ProjectedSolidAngle];
-                let able = measures.into_iter().filter(|&by| AreaLight::KINDS.contains(&(shape, by)));
+                let able = measures.into_iter().filter(|&by| AreaLight::kinds().contains(&(shape, by)));
                 able.map(|by| AreaLight { by, ..light }).collect()
             }
         };

@@ -111,19 +111,10 @@ impl Regime {
             };
             let slim = if self == Self::Slivers { random.magnitude(1e-4, 1.0) } else { 1.0 };
             let spread = if self == Self::Spreads { random.magnitude(0.02, 3.1) } else { 0.0 };
-            about(kind, [center, normal], size, slim, cosine, random).scaled(self.unit() as f32).with(
-                power as f32,
-                two_sided,
-                spread as f32,
-            )
+            let lamp = about(kind, [center, normal], size, slim, cosine, random).scaled(self.unit() as f32);
+            Lamp { power: power as f32, two_sided, spread: spread as f32, ..lamp }
         };
         (0..count).map(lamp).collect()
-    }
-}
-
-impl Lamp {
-    fn with(self, power: f32, two_sided: bool, spread: f32) -> Self {
-        Self { power, two_sided, spread, ..self }
     }
 }
 

@@ -2,66 +2,43 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What is measured. Values are relative errors, unless said.
+/// What is measured. Values are relative errors, unless said. The gravest come first: what is no answer, what makes an image wrong, what makes it
+/// wrong together with other techniques, and what only some uses notice.
 #[derive(Deserialize, Serialize, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Figure {
+    /// The sampler did not answer: it panicked, crashed or did not end.
+    Answer,
     /// Number of answers that are no numbers, negative densities or no unit vectors.
     Nonsense,
     /// Part of the draws without a sample, where all of them are.
     Dark,
+    /// Bias of the irradiance.
+    Bias,
     /// Angle by which a direction is outside of the light, over the light's width.
     Outside,
     /// Error of a sample's pdf.
     Density,
+    /// Bias of the irradiance with multiple importance sampling.
+    MisBias,
     /// Difference between the pdf of a sample and that of its direction.
     TwoPdfs,
-    /// Part of the directions outside of the light with a positive pdf.
-    Stray,
     /// ∫ pdf less the part of the draws that are samples.
     Integral,
     /// χ² of the samples over cells against their pdf: 1 less the p-value's logarithm over that of the least allowed one.
     Frequencies,
     /// Error of the mean place of the samples, over the light's width.
     Placement,
-    /// Error of the area that the map gives to a part of the square.
-    Jacobian,
+    /// Part of the directions outside of the light with a positive pdf.
+    Stray,
+    /// Error of the distance of the light.
+    Hit,
     /// Angle between a sample and the sample of its inverse, over the light's size; or how far the inverse is beyond the unit square, if that
     /// is more.
     Inverse,
-    /// Error of the distance of the light.
-    Hit,
-    /// Bias of the irradiance.
-    Bias,
-    /// Bias of the irradiance with multiple importance sampling.
-    MisBias,
-    /// The sampler did not answer: it panicked, crashed or did not end.
-    Answer,
+    /// Error of the area that the map gives to a part of the square.
+    Jacobian,
 }
 impl Figure {
-    /// How grave a finding is, the gravest first: what is no answer, what makes an image wrong, what makes it wrong together with other
-    /// techniques, and what only some uses notice.
-    #[must_use]
-    pub fn rank(self) -> usize {
-        use Figure::*;
-        let all = [
-            Answer,
-            Nonsense,
-            Dark,
-            Bias,
-            Outside,
-            Density,
-            MisBias,
-            TwoPdfs,
-            Integral,
-            Frequencies,
-            Placement,
-            Stray,
-            Hit,
-            Inverse,
-            Jacobian,
-        ];
-        all.iter().position(|f| *f == self).unwrap_or(all.len())
-    }
     /// What a finding says, before where it is.
     #[must_use]
     pub fn said(self, value: f64) -> String {

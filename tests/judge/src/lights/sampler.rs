@@ -127,6 +127,9 @@ struct Own {
 fn vector(v: [f32; 3]) -> Vec3<f32> {
     Vec3::new(v[0], v[1], v[2])
 }
+fn is_inside(light: &AreaLight) -> bool {
+    light.shape == LightShape::Sphere && length(sub(wide(light.a), wide(light.p))) < f64::from(light.radius)
+}
 impl Sampler for Own {
     fn sample(&self, u: [f32; 2]) -> Option<Sample> {
         let s = self.light.sample(Vec2::new(u[0], u[1]));
@@ -158,9 +161,7 @@ pub fn technique(shape: LightShape, by: Measure) -> Subject<'static> {
         domain: String::new(),
         prepare: Box::new(move |light| {
             let light = AreaLight { by, ..*light };
-            let away = length(sub(wide(light.a), wide(light.p)));
-            let is_inside = light.shape == LightShape::Sphere && away < f64::from(light.radius);
-            Prepared::Ready(Box::new(Own { light: AreaLight::prepare::<f32>(&[light]), is_inside }))
+            Prepared::Ready(Box::new(Own { is_inside: is_inside(&light), light: AreaLight::prepare::<f32>(&[light]) }))
         }),
     }
 }
@@ -169,7 +170,7 @@ pub fn technique(shape: LightShape, by: Measure) -> Subject<'static> {
 #[must_use]
 pub fn own() -> Vec<Subject<'static>> {
     let is_judged = |shape| shape == LightShape::Polygon || SHAPES.iter().any(|s| s.0 == shape);
-    let kinds = AreaLight::KINDS.iter().filter(|kind| is_judged(kind.0));
+    let kinds = AreaLight::kinds().iter().filter(|kind| is_judged(kind.0));
     kinds.map(|&(shape, by)| technique(shape, by)).chain(SHAPES.iter().map(|s| set(s.0))).collect()
 }
 
@@ -198,6 +199,12 @@ impl Sampler for OfSet {
 /// A set of one light of a shape.
 #[must_use]
 pub fn set(shape: LightShape) -> Subject<'static> {
+    macro_rules! of {
+        ($light:expr, $point:expr) => {{
+            let light = $light;
+            (light.into(), light.on_surface($point))
+        }};
+    }
     Subject {
         name: format!("etendue set of one {}", shape_name(shape)),
         shape,
@@ -208,20 +215,15 @@ pub fn set(shape: LightShape) -> Subject<'static> {
             let AreaLight { a, b, c, radius, p, .. } = *light;
             let [a, b, c, point] = [a, b, c, p].map(vector);
             let (emitter, is_on): (Emitter<f32>, bool) = match shape {
-                LightShape::Sphere => (Sphere::new(a, radius).into(), Sphere::new(a, radius).on_surface(point)),
-                LightShape::Triangle => {
-                    let light = Triangle::new(a, a + b, a + c);
-                    (light.into(), light.on_surface(point))
-                }
-                LightShape::Rectangle => (Rectangle::new(a, b, c).into(), Rectangle::new(a, b, c).on_surface(point)),
-                LightShape::Disk => (Disk::new(a, b, radius).into(), Disk::new(a, b, radius).on_surface(point)),
-                _ => (Parallelogram::new(a, b, c).into(), Parallelogram::new(a, b, c).on_surface(point)),
+                LightShape::Sphere => of!(Sphere::new(a, radius), point),
+                LightShape::Triangle => of!(Triangle::new(a, a + b, a + c), point),
+                LightShape::Rectangle => of!(Rectangle::new(a, b, c), point),
+                LightShape::Disk => of!(Disk::new(a, b, radius), point),
+                _ => of!(Parallelogram::new(a, b, c), point),
             };
-            let away = length(sub(wide(light.a), wide(light.p)));
-            let is_inside = shape == LightShape::Sphere && away < f64::from(radius);
             match Lights::new([(emitter, 1.0)]) {
                 Ok(_) if is_on => Prepared::OutsideOfDomain,
-                Ok(lights) => Prepared::Ready(Box::new(OfSet { lights, point, is_inside })),
+                Ok(lights) => Prepared::Ready(Box::new(OfSet { lights, point, is_inside: is_inside(light) })),
                 Err(_) => Prepared::Nothing,
             }
         }),

@@ -109,7 +109,7 @@ impl Judgement {
 }
 
 /// How much to do.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 pub struct Effort {
     /// Half of the places, and a quarter of the samples.
     pub quick: bool,
@@ -216,7 +216,7 @@ pub fn findings(cases: &[Case], mut input: impl FnMut(Figure, usize) -> String) 
         let said = format!("{} {}", figure.said(greatest), places.join(", "));
         all.push(Finding { figure, value: greatest, said, input: input(figure, first) });
     }
-    all.sort_by_key(|finding| finding.figure.rank());
+    all.sort_by_key(|finding| finding.figure);
     all
 }
 

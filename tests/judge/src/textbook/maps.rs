@@ -56,11 +56,6 @@ impl Sampler for Cone {
         let across = local.x * local.x + local.y * local.y;
         if local.z > 0.0 && across <= self.sin_squared { 1.0 / (TAU * self.h) } else { 0.0 }
     }
-    fn invert(&self, w: V) -> Option<[f32; 2]> {
-        let local = self.frame.to_local(etendue::Vec3::new(w[0], w[1], w[2]));
-        let azimuth = local.y.atan2(local.x) / TAU;
-        Some([(1.0 - local.z) / self.h, if azimuth < 0.0 { azimuth + 1.0 } else { azimuth }])
-    }
 }
 
 /// How to compute the solid angle of a spherical triangle.
@@ -74,7 +69,7 @@ pub(super) enum Excess {
 
 /// A spherical triangle and Arvo's map about b, from a to c ("Stratified Sampling of Spherical Triangles", 1995).
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Arvo {
+struct Arvo {
     a: V,
     b: V,
     c: V,
@@ -84,7 +79,7 @@ pub(super) struct Arvo {
 }
 impl Arvo {
     /// The triangle of vertices relative to the point.
-    pub(super) fn new([a, b, c]: [V; 3], excess: Excess) -> Self {
+    fn new([a, b, c]: [V; 3], excess: Excess) -> Self {
         let (a, b, c) = (normalize(a), normalize(b), normalize(c));
         let planes = [cross(a, b), cross(b, c), cross(c, a)].map(normalize);
         let angle = |p: V, q: V| (-dot(p, q)).clamp(-1.0, 1.0).acos();
@@ -99,12 +94,7 @@ impl Arvo {
         };
         Self { a, b, c, cos_c: dot(a, b), angle: [alpha.sin(), alpha.cos()], solid_angle }
     }
-    /// Solid angle in steradians.
-    pub(super) fn solid_angle(&self) -> f32 {
-        self.solid_angle
-    }
-    /// The direction for `u`.
-    pub(super) fn sample(&self, u: [f32; 2]) -> V {
+    fn sample(&self, u: [f32; 2]) -> V {
         let [sin_alpha, cos_alpha] = self.angle;
         let (sin_area, cos_area) = (u[0] * self.solid_angle).sin_cos();
         let s = sin_area * cos_alpha - cos_area * sin_alpha;
@@ -118,70 +108,43 @@ impl Arvo {
         let z = 1.0 - u[1] * (1.0 - dot(swept, self.b));
         add(times(self.b, z), times(towards(self.b, swept), (1.0 - z * z).max(0.0).sqrt()))
     }
-    /// The inverse: the swept fraction of the solid angle, and a ratio of values of 1 − cos.
-    pub(super) fn invert(&self, w: V, excess: Excess) -> [f32; 2] {
-        let plane = cross(self.b, w);
-        if dot(plane, plane) == 0.0 {
-            return [0.0; 2];
-        }
-        let mut swept = normalize(cross(plane, cross(self.c, self.a)));
-        if dot(swept, add(self.a, self.c)) < 0.0 {
-            swept = times(swept, -1.0);
-        }
-        let part = Self::new([self.a, self.b, swept], excess);
-        [part.solid_angle / self.solid_angle, (1.0 - dot(w, self.b)) / (1.0 - dot(swept, self.b))]
-    }
 }
 
 /// A fan of spherical triangles, chosen by u₀.
 #[derive(Clone, Debug)]
 pub(super) struct Fan {
     parts: Vec<Arvo>,
-    excess: Excess,
     whole: f32,
 }
 impl Fan {
     /// The triangles of vertices relative to the point.
     pub(super) fn new(triangles: &[[V; 3]], excess: Excess) -> Self {
         let parts: Vec<_> = triangles.iter().map(|t| Arvo::new(*t, excess)).collect();
-        let whole = parts.iter().map(Arvo::solid_angle).sum();
-        Self { parts, excess, whole }
+        let whole = parts.iter().map(|part| part.solid_angle).sum();
+        Self { parts, whole }
     }
-    /// How far a direction is inside of each part, and the index of the part that has it deepest.
-    fn part_of(&self, w: V) -> (f32, usize) {
-        let depth = |f: &Arvo| {
+    /// Whether a direction is inside of a part.
+    fn meets(&self, w: V) -> bool {
+        self.parts.iter().any(|f| {
             let turn = dot(f.a, cross(f.b, f.c)).signum();
-            let sides = [(f.a, f.b), (f.b, f.c), (f.c, f.a)];
-            sides.map(|(a, b)| turn * dot(w, cross(a, b))).into_iter().fold(f32::INFINITY, f32::min)
-        };
-        let depths = self.parts.iter().map(depth).enumerate().map(|(i, d)| (d, i));
-        depths.fold((f32::NEG_INFINITY, 0), |best, d| if d.0 > best.0 { d } else { best })
+            [(f.a, f.b), (f.b, f.c), (f.c, f.a)].iter().all(|&(a, b)| turn * dot(w, cross(a, b)) >= 0.0)
+        })
     }
 }
 impl Sampler for Fan {
     fn sample(&self, u: [f32; 2]) -> Option<Sample> {
-        let swept = u[0] * self.whole;
-        let mut before = 0.0;
-        let mut chosen = (self.parts.len() - 1, 0.0);
-        for (i, f) in self.parts.iter().enumerate() {
-            if i + 1 == self.parts.len() || swept < before + f.solid_angle {
-                chosen = (i, before);
-                break;
+        let mut rest = u[0] * self.whole;
+        let (last, others) = self.parts.split_last()?;
+        for part in others {
+            if rest < part.solid_angle {
+                return drawn(part.sample([rest / part.solid_angle, u[1]]), 1.0 / self.whole);
             }
-            before += f.solid_angle;
+            rest -= part.solid_angle;
         }
-        let f = &self.parts[chosen.0];
-        drawn(f.sample([(swept - chosen.1) / f.solid_angle, u[1]]), 1.0 / self.whole)
+        drawn(last.sample([rest / last.solid_angle, u[1]]), 1.0 / self.whole)
     }
     fn pdf(&self, w: V) -> f32 {
-        if self.part_of(w).0 >= 0.0 { 1.0 / self.whole } else { 0.0 }
-    }
-    fn invert(&self, w: V) -> Option<[f32; 2]> {
-        let chosen = self.part_of(w).1;
-        let before: f32 = self.parts[..chosen].iter().map(|f| f.solid_angle).sum();
-        let f = &self.parts[chosen];
-        let [x, y] = f.invert(w, self.excess);
-        Some([(before + x * f.solid_angle) / self.whole, y])
+        if self.meets(w) { 1.0 / self.whole } else { 0.0 }
     }
 }
 
@@ -262,34 +225,6 @@ impl Urena {
         let [a, b, n] = self.axes;
         normalize(add(times(a, x), add(times(b, y), times(n, self.z))))
     }
-    /// The inverse, by solving the same equations for `u`.
-    pub(super) fn place(&self, w: V) -> [f32; 2] {
-        let [a, b, n] = self.axes;
-        let scale = self.z / dot(w, n);
-        let x = (dot(w, a) * scale).clamp(self.x[0], self.x[1]);
-        let y = dot(w, b) * scale;
-        // the cosine of the azimuth about y, then f, then b₀ cos − f sin = b₁
-        let [b0, b1] = self.b;
-        let c = x / (x * x + self.z * self.z).sqrt();
-        let f = (1.0 / (c * c) - b0 * b0).max(0.0).sqrt().copysign(c);
-        let radius = (b0 * b0 + f * f).sqrt();
-        let (offset, reach) = (f.atan2(b0), (b1 / radius).clamp(-1.0, 1.0).acos());
-        // takes the solution that lies within the swept angle
-        let mut best = (f32::INFINITY, 0.0);
-        for root in [reach - offset, -reach - offset] {
-            for turn in [0.0, TAU, 2.0 * TAU] {
-                let part = (root + turn - self.k) / self.solid_angle;
-                let miss = (part - 0.5).abs();
-                let sin = (root + turn).sin();
-                if miss < best.0 && sin != 0.0 {
-                    best = (miss, part);
-                }
-            }
-        }
-        let d = (x * x + self.z * self.z).sqrt();
-        let h = self.y.map(|y| y / (d * d + y * y).sqrt());
-        [best.1, (y / (d * d + y * y).sqrt() - h[0]) / (h[1] - h[0])]
-    }
 }
 
 impl Sampler for Urena {
@@ -298,8 +233,5 @@ impl Sampler for Urena {
     }
     fn pdf(&self, w: V) -> f32 {
         if meets(self.shape, w) { 1.0 / self.solid_angle } else { 0.0 }
-    }
-    fn invert(&self, w: V) -> Option<[f32; 2]> {
-        Some(self.place(w))
     }
 }

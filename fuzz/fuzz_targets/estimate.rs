@@ -1,4 +1,0 @@
-//! Runs `fuzz_bodies::estimate` on any bytes.
-#![no_main]
-
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| etendue_judge::fuzz_bodies::estimate(bytes));

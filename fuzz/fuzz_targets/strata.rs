@@ -1,4 +1,0 @@
-//! Runs `fuzz_bodies::strata` on any bytes.
-#![no_main]
-
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| etendue_judge::fuzz_bodies::strata(bytes));
