@@ -1,4 +1,4 @@
-//! The camera of an image: a pinhole, a thin lens, a lens in a barrel, or parallel rays.
+//! The camera of an image: a pinhole, a thin lens, or parallel rays.
 
 mod group;
 mod linear;
@@ -9,7 +9,6 @@ mod pinhole;
 mod points;
 mod prepared;
 mod thin_lens;
-mod vignetting;
 
 pub(crate) use group::{Group, Numbers};
 pub use orbit::Orbit;
@@ -21,9 +20,8 @@ pub(crate) use points::PointIdentity;
 pub(crate) use points::Points;
 pub(crate) use prepared::PreparedScene;
 pub use thin_lens::{Slopes, ThinLens};
-pub use vignetting::{Barrel, Pupil};
 
-use crate::packet::{M8, V8, X8};
+use crate::packet::{V8, X8};
 use crate::scene::CameraSettings;
 use etendue::warp::ConcentricDisk;
 use etendue::{Real, Vec2, Vec3, Warp, u32x8};
@@ -66,10 +64,6 @@ pub enum Camera {
     Orthographic(Orthographic),
     /// Rays leave from all points of a lens.
     ThinLens(ThinLens),
-    /// Rays leave from the points of a lens that a barrel does not block.
-    Barrel(ThinLens, Barrel),
-    /// Each pixel is a point of the lens, as seen from one point of the film.
-    Pupil(Pupil),
 }
 
 impl Camera {
@@ -88,8 +82,6 @@ impl Camera {
             Self::Pinhole(pinhole) => Self::Pinhole(pinhole.counted_from(pixel)),
             Self::Orthographic(parallel) => Self::Orthographic(parallel.counted_from(pixel)),
             Self::ThinLens(thin) => Self::ThinLens(thin.counted_from(pixel)),
-            Self::Barrel(thin, barrel) => Self::Barrel(thin.counted_from(pixel), barrel.counted_from(pixel)),
-            Self::Pupil(pupil) => Self::Pupil(pupil.counted_from(pixel)),
         }
     }
     /// Origins and unit directions of eight rays.
@@ -98,17 +90,7 @@ impl Camera {
         match self {
             Self::Pinhole(pinhole) => pinhole.ray(film.x, film.y),
             Self::Orthographic(parallel) => parallel.ray(film.x, film.y),
-            Self::ThinLens(thin) | Self::Barrel(thin, _) => thin.ray(film.x, film.y, *lens),
-            Self::Pupil(pupil) => pupil.ray(film.x, film.y),
-        }
-    }
-    /// The lanes whose rays pass the lens; `None` if all do. Blocked rays count as black samples.
-    #[inline]
-    pub fn open(&self, CameraSample { film, lens }: &CameraSample) -> Option<M8> {
-        match self {
-            Self::Pinhole(_) | Self::Orthographic(_) | Self::ThinLens(_) => None,
-            Self::Barrel(_, barrel) => Some(barrel.open(film.x, film.y, *lens)),
-            Self::Pupil(pupil) => Some(pupil.open(film.x, film.y)),
+            Self::ThinLens(thin) => thin.ray(film.x, film.y, *lens),
         }
     }
     /// Where the ray through the middle of the image begins, and the area of a pixel there: at the camera, and what it becomes more per squared
@@ -124,17 +106,16 @@ impl Camera {
         (origin.lane(0).map(f64::from), [area(origin), area(direction)])
     }
     /// Where the film shows a point that is in focus, in pixels from the top left, and where the ray to it begins; `None` if it is behind the
-    /// camera, or if the image is not of the scene.
+    /// camera.
     pub fn view_of(&self, p: Vec3<f64>) -> Option<([f64; 2], Vec3<f64>)> {
         match self {
             Self::Pinhole(pinhole) => pinhole.view_of(p),
             Self::Orthographic(parallel) => parallel.view_of(p),
-            Self::ThinLens(thin) | Self::Barrel(thin, _) => thin.view_of(p),
-            Self::Pupil(_) => None,
+            Self::ThinLens(thin) => thin.view_of(p),
         }
     }
     /// Whether samples have a point on the lens.
     pub const fn has_lens(&self) -> bool {
-        matches!(self, Self::ThinLens(_) | Self::Barrel(..))
+        matches!(self, Self::ThinLens(_))
     }
 }

@@ -64,6 +64,17 @@ impl Drop for Folder {
     }
 }
 
+/// The rows of a table of faults: texts of any number of lines, each followed by a line `=> ` with what is said of it.
+pub(crate) fn faults(table: &'static str) -> impl Iterator<Item = (&'static str, &'static str)> {
+    let mut rest = table;
+    std::iter::from_fn(move || {
+        let (text, after) = rest.split_once("\n=> ")?;
+        let (said, more) = after.split_once('\n').unwrap();
+        rest = more;
+        Some((text, said))
+    })
+}
+
 fn read_in(folder: &Path, text: &str) -> Scene {
     etendue_scene::parse(text, "test.pbrt", folder).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }

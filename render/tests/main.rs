@@ -43,4 +43,3 @@ mod spread;
 mod surfaces;
 mod values;
 mod variance;
-mod vignetting;

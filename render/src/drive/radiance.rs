@@ -1,6 +1,6 @@
 //! Radiance along camera rays, by where it comes from.
 
-use crate::packet::{M8, V8, X8, keep};
+use crate::packet::{V8, X8};
 
 /// Radiance along camera rays.
 #[derive(Clone, Copy, Default)]
@@ -16,11 +16,6 @@ pub(super) struct Radiance {
 impl Radiance {
     pub(super) fn total(&self) -> V8 {
         self.seen + self.known + self.reflected
-    }
-    /// The same radiance where the mask is true, and 0 elsewhere.
-    #[inline]
-    pub(super) fn keep(&self, mask: M8) -> Self {
-        Self { seen: keep(self.seen, mask), known: keep(self.known, mask), reflected: keep(self.reflected, mask) }
     }
     #[inline]
     pub(super) fn times(&self, weight: X8) -> Self {

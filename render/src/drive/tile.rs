@@ -301,11 +301,7 @@ impl<'a> TileRenderer<'a> {
         std::array::from_fn(|p| {
             let through =
                 |part: V8| if is_plain || *only_looks { part } else { product(paths.points.ends[p].throughput, part) };
-            let mut radiance =
-                Radiance { seen: paths.seen[p], known: through(known[p]), reflected: through(sampled[p]) };
-            if let Some(open) = camera.open(&samples[p]) {
-                radiance = radiance.keep(open);
-            }
+            let radiance = Radiance { seen: paths.seen[p], known: through(known[p]), reflected: through(sampled[p]) };
             exposure.map_or(radiance, |exposure| radiance.times(exposure.weight(&samples[p])))
         })
     }

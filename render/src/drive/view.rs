@@ -61,18 +61,10 @@ impl World {
     /// # Panics
     /// Panics unless [`Settings::check`] allows them.
     pub fn view(&self, settings: &Settings) -> View<'_> {
-        self.view_through(&Camera::new(&self.camera, settings.width, settings.height), settings)
-    }
-
-    /// Like [`World::view`], with a camera other than the scene's, made for an image of this size.
-    ///
-    /// # Panics
-    /// Panics unless [`Settings::check`] allows them.
-    pub fn view_through(&self, camera: &Camera, settings: &Settings) -> View<'_> {
         assert_eq!(settings.check(), Ok(()));
+        let camera = Camera::new(&self.camera, settings.width, settings.height);
         let worth = settings.spp;
-        let view =
-            View { world: self, camera: *camera, settings: *settings, worth, trial: None, stop: None, told: None };
+        let view = View { world: self, camera, settings: *settings, worth, trial: None, stop: None, told: None };
         if settings.technique != Technique::Auto {
             return view;
         }

@@ -1,256 +1,33 @@
 //! Errors and warnings name the line and the wrong value, and no input panics.
 
 use crate::damaged::damaged;
-use crate::kit::Folder;
+use crate::kit::{Folder, faults};
 use crate::pbrt::text::{TRIANGLE, error, read, warnings, world};
 use etendue_render::scene::Material;
 use etendue_scene::{SceneError, load, parse};
 use std::path::Path;
 
-/// Texts that follow a valid first line, the line of their fault, and a part of the message.
-const FAULTS: &[(&str, u32, &str)] = &[
-    // words and tokens
-    ("Flim \"rgb\"", 2, "unknown directive Flim; did you mean Film?"),
-    ("Atributebegin", 2, "unknown directive Atributebegin; did you mean AttributeBegin?"),
-    ("# comment\r\nFlim", 3, "unknown directive Flim"),
-    ("#\u{e9}\nAttributeBegin\u{e9}", 3, "unknown directive AttributeBegin\u{e9}"),
-    ("\n\"Shape\"", 3, "expected a directive, found \"Shape\""),
-    ("Shape \"sphere", 2, "the string \"sphere\" is not closed"),
-    ("Shape \"sph\\qere\"", 2, "unknown escape \\q"),
-    ("Shape sphere", 2, "expected a type in quotes, found sphere"),
-    ("Shape", 2, "the file ends where a type is expected"),
-    ("Translate 1 2", 2, "the file ends where Translate is expected"),
-    ("Translate 1\n2 x3", 3, "expected a number, found x3"),
-    ("Translate 1 2 nan", 2, "the number nan is not finite"),
-    ("Translate 1 2 1e999", 2, "the number 1e999 is not finite"),
-    ("Translate [1 2 3]", 2, "expected a number, found ["),
-    // parameters
-    ("Shape \"sphere\" \"radius\" 1", 2, "expected a parameter's type and name, found \"radius\""),
-    ("Shape \"sphere\" \"real radius\" 1", 2, "unknown type \"real\""),
-    ("Shape \"sphere\"\n\"integer radius\" 1", 3, "\"radius\": type integer is not supported, only float"),
-    ("Shape \"sphere\" \"float radius\" [1\n2z]", 3, "\"radius\": expected a number, found 2z"),
-    ("Shape \"sphere\" \"float radius\" [1 2]", 2, "expected one value, found 2"),
-    ("Shape \"sphere\" \"float radius\" []", 2, "expected one value, found none"),
-    ("Shape \"sphere\" \"float radius\" [1", 2, "the file ends where the ] of \"radius\""),
-    ("Shape \"sphere\" \"float radius\" 1 2", 2, "unknown directive 2"),
-    ("Shape \"trianglemesh\" \"integer indices\" [0 1.5 2]", 2, "expected an integer, found 1.5"),
-    ("Shape \"trianglemesh\" \"integer indices\" [9999999999]", 2, "expected an integer, found 9999999999"),
-    ("AreaLightSource \"diffuse\" \"bool twosided\" 1", 2, "expected true or false, found 1"),
-    // state
-    ("AttributeBegin\n\n", 2, "this AttributeBegin or TransformBegin is never closed"),
-    ("AttributeEnd", 2, "AttributeEnd has no matching Begin"),
-    ("WorldBegin", 2, "a second WorldBegin"),
-    ("Film \"rgb\"", 2, "Film must come before WorldBegin"),
-    ("Rotate 30 0 0 0", 2, "the axis must not be zero"),
-    ("LookAt 0 0 0 0 1 0 0 1 0", 2, "do not define a view"),
-    ("Transform [1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1]", 2, "not affine"),
-    ("Transform 1 0 0 0", 2, "expected [, found 1"),
-    ("Scale 1e300 1 1 Scale 1e300 1 1", 2, "no longer finite"),
-    ("Scale 1 0 1\nShape \"sphere\"", 3, "its transform is singular"),
-    // not supported
-    ("Texture \"a\" \"point\" \"constant\"", 2, "a texture of \"point\": only spectrum and float"),
-    ("Texture \"a\" \"float\" \"imagemap\"", 2, "\"string filename\" is missing"),
-    ("Texture \"a\" \"float\" \"imagemap\" \"string filename\" \"x.png\"", 2, "x.png: cannot read: "),
-    (
-        "Texture \"a\" \"float\" \"imagemap\" \"string filename\" \"x\" \"string wrap\" \"round\"",
-        2,
-        "\"wrap\": unknown mode \"round\"",
-    ),
-    ("Texture \"a\" \"float\" \"checkerboard\" \"float uscale\" 1e39", 2, "\"uscale\": must be finite in f32"),
-    ("Texture \"a\" \"float\" \"constant\" \"float value\" 1e39", 2, "\"value\": must be finite in f32, not 1e39"),
-    (
-        "Texture \"a\" \"float\" \"imagemap\" \"string filename\" \"x\" \"float scale\" 1e39",
-        2,
-        "\"scale\": must be finite in f32, not 1e39",
-    ),
-    (
-        "Scale 1 0 1 Rotate 20 1 0 0 Rotate -20 1 0 0\nLightSource \"distant\" \"point3 to\" [0 1 0]",
-        3,
-        "define no direction",
-    ),
-    ("\nObjectBegin \"a\"", 3, "this ObjectBegin is never closed"),
-    ("ObjectEnd", 2, "ObjectEnd has no matching ObjectBegin"),
-    ("ObjectBegin \"a\"\nObjectBegin \"b\"", 3, "the one of line 2 is not closed"),
-    (
-        "ObjectBegin \"a\"\nAttributeBegin\nObjectEnd",
-        4,
-        "ObjectEnd: the AttributeBegin or TransformBegin of line 3 is not closed",
-    ),
-    (
-        "AttributeBegin\nObjectBegin \"a\"\nAttributeEnd\nObjectEnd",
-        4,
-        "AttributeEnd: the ObjectBegin of line 3 is not closed",
-    ),
-    ("ObjectBegin \"a\"\nTransformEnd", 3, "TransformEnd: the ObjectBegin of line 2 is not closed"),
-    ("ObjectBegin \"a\" ObjectEnd Scale 1 0 1\nObjectInstance \"a\"", 3, "its transform is singular"),
-    ("ObjectBegin \"a\"\nObjectInstance \"a\"", 3, "objects cannot contain instances"),
-    ("ActiveTransform Later", 2, "expected All, StartTime or EndTime, found Later"),
-    ("Attribute \"camera\" \"float x\" 1", 2, "only shape, light, material, medium, texture"),
-    ("Import \"a.pbrt\"", 2, "cannot read"),
-    ("Include \"none.pbrt\"", 2, "cannot read"),
-    ("Shape \"cube\"", 2, "Shape \"cube\": shape not supported"),
-    ("Shape \"sphre\"", 2, "loopsubdiv; did you mean sphere?"),
-    ("Material \"difuse\"", 2, "disney; did you mean diffuse?"),
-    ("Material \"cloth\"", 2, "material type \"cloth\" is not supported"),
-    ("Material \"dielectric\" \"float eta\" 0", 2, "\"eta\": must be from 1e-3 to 1e3, not 0"),
-    ("Material \"mix\" \"string materials\" \"a\"", 2, "needs two \"materials\", not 1"),
-    ("Material \"diffuse\" \"blackbody reflectance\" 3000", 2, "a light's spectrum is no reflectance"),
-    ("Material \"diffuse\" \"spectrum reflectance\" [400 1 300 1]", 2, "wavelengths must ascend: 300 follows 400"),
-    ("Material \"diffuse\" \"spectrum reflectance\" []", 2, "needs pairs"),
-    ("Material \"diffuse\" \"spectrum reflectance\" [400]", 2, "needs pairs"),
-    ("Material \"diffuse\" \"spectrum reflectance\" [400 -1]", 2, "at least 0"),
-    ("Material \"diffuse\" \"spectrum reflectance\" [400 nan]", 2, "finite"),
-    ("Material \"diffuse\" \"spectrum reflectance\" \"metal-Cu-q\"", 2, "no spectrum is called"),
-    ("Material \"diffuse\" \"spectrum reflectance\" \"glass-\"", 2, "no spectrum is called"),
-    ("LightSource \"point\" \"spectrum I\" \"stdillum-Z\"", 2, "no spectrum is called"),
-    ("Material \"diffuse\" \"spectrum reflectance\" \"x.spd\"", 2, "cannot read"),
-    ("Material \"diffuse\" \"spectrum reflectance\" \"brass\"", 2, "no spectrum is called \"brass\""),
-    ("MakeNamedMaterial \"m\"", 2, "\"string type\" is missing"),
-    ("AreaLightSource \"spot\"", 2, "AreaLightSource \"spot\": not supported"),
-    ("AreaLightSource \"diffuse\" \"blackbody L\" 30", 2, "expected a temperature from 200 to 1e6 K, found [30.0]"),
-    ("AreaLightSource \"diffuse\" \"spectrum L\" \"metal-Cu-k\"", 2, "this spectrum is no light"),
-    ("AreaLightSource \"diffuse\" \"float power\" -3", 2, "\"power\": must be greater than 0, not -3"),
-    // values
-    ("Material \"diffuse\" \"rgb reflectance\" [.1 .2]", 2, "expected three numbers, found 2"),
-    ("Material \"diffuse\" \"rgb reflectance\" [.1 .2 -.5]", 2, "\"reflectance\": must be at least 0, not -0.5"),
-    ("AreaLightSource \"diffuse\" \"rgb L\" [1 -2 3]", 2, "\"L\": must be at least 0, not -2"),
-    ("AreaLightSource \"diffuse\" \"rgb L\" [1e39 1 1]", 2, "at most 4e37 is supported"),
-    ("AreaLightSource \"diffuse\" \"float scale\" -1", 2, "\"scale\": must be at least 0, not -1"),
-    // spheres
-    ("Shape \"sphere\" \"float radius\" 0", 2, "\"radius\": must be greater than 0 and finite, not 0 "),
-    ("Shape \"sphere\" \"float radius\" -3", 2, "\"radius\": must be greater than 0 and finite, not -3 "),
-    ("Translate 1e39 0 0\nShape \"sphere\"", 3, "[1e39, 0.0, 0.0], which is not finite in f32"),
-    ("Shape \"disk\" \"float radius\" 0", 2, "\"radius\": must be greater than 0 and finite, not 0"),
-    ("Shape \"cylinder\" \"float radius\" -2", 2, "\"radius\": must be greater than 0 and finite, not -2"),
-    // meshes
-    ("Shape \"trianglemesh\"", 2, "\"point3 P\" is missing"),
-    ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1]", 2, "expected a multiple of 3 numbers, found 4"),
-    ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0]", 2, "\"indices\" is missing"),
-    ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 1e39 1 0]", 2, "vertex 2 is at [1e39, 1.0, 0.0]"),
-    ("Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 inf 1 0]", 2, "the number inf is not finite"),
-    (
-        "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 3]",
-        2,
-        "index 3 is out of range: there are 3",
-    ),
-    (
-        "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 -1 2]",
-        2,
-        "index -1 is out of range",
-    ),
-    (
-        "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 2 0]",
-        2,
-        "expected a multiple of 3 numbers, found 4",
-    ),
-    (
-        "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"normal N\" [0 0 1]",
-        2,
-        "\"N\" has 1 values for 3 points",
-    ),
-    (
-        "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0] \"integer indices\" [0 1 2]",
-        2,
-        "expected a multiple of 4 numbers, found 3",
-    ),
-    ("Shape \"plymesh\"", 2, "\"string filename\" is missing"),
-    ("Shape \"plymesh\" \"string filename\" \"builtin:terrain\"", 2, "cannot read"),
-    // numbers are shown as short as they can be
-    ("Shape \"sphere\" \"float radius\" 1e-300", 2, "not 1e-300 ("),
-    ("AreaLightSource \"diffuse\" \"float scale\" -1e300", 2, "not -1e300"),
-    ("Material \"diffuse\" \"rgb reflectance\" [0 -1e-200 0]", 2, "not -1e-200"),
-];
+/// Each text of a table gives the error of the line and with the words that follow it.
+fn errors_are_those_of(table: &'static str, around: impl Fn(&str) -> String) {
+    for (text, said) in faults(table) {
+        let (message, (line, part)) = (error(&around(text)), said.split_once(": ").unwrap());
+        assert!(
+            message.starts_with(&format!("a.pbrt:{line}: ")) && message.contains(part),
+            "{message}\n{text}\n{said}"
+        );
+    }
+}
 
-/// The same of lights and metals.
-const FAULTS_OF_LIGHTS: &[(&str, u32, &str)] = &[
-    ("LightSource \"laser\"", 2, "not supported, only \"point\""),
-    ("LightSource \"point\" \"float power\" 0", 2, "must be greater than 0, not 0"),
-    ("LightSource \"distant\" \"float illuminance\" -3", 2, "must be greater than 0, not -3"),
-    ("AreaLightSource \"diffuse\" \"float spread\" 0", 2, "\"spread\": must be from 0.1 to 180 degrees, not 0"),
-    ("AreaLightSource \"diffuse\" \"float spread\" 181", 2, "must be from 0.1 to 180 degrees, not 181"),
-    ("AreaLightSource \"diffuse\" \"float spread\" 0.1 \"float scale\" 4e36", 2, "at most 1.0"),
-    ("LightSource \"point\" \"float scale\" -2", 2, "\"scale\": must be at least 0, not -2"),
-    ("LightSource \"point\" \"rgb I\" [1 -3 1]", 2, "\"I\": must be at least 0, not -3"),
-    ("LightSource \"point\" \"texture I\" \"a\"", 2, "a light cannot have a texture"),
-    ("LightSource \"point\" \"rgb I\" [1e30 0 0] \"float scale\" 1e30", 2, "at most 3.4028235e38 is supported"),
-    ("LightSource \"point\" \"point3 from\" [1e39 0 0]", 2, "not finite in f32"),
-    ("LightSource \"point\" \"point3 from\" [1 2 3 4 5 6]", 2, "\"from\": expected three numbers, found 6"),
-    ("LightSource \"distant\" \"point3 from\" [1 2 3] \"point3 to\" [1 2 3]", 2, "define no direction"),
-    (
-        "LightSource \"spot\" \"float coneangle\" 200",
-        2,
-        "\"coneangle\": must be greater than 0 and at most 180 degrees, not 200",
-    ),
-    (
-        "LightSource \"spot\" \"float coneangle\" 20 \"float conedeltaangle\" 21",
-        2,
-        "\"conedeltaangle\": must be from 0 to the cone angle 20, not 21",
-    ),
-    ("Scale 1 2 1 LightSource \"spot\"", 2, "stretches its cone"),
-    ("Scale 1 2 1 LightSource \"infinite\"", 2, "rotations, reflections and uniform scales"),
-    ("Material \"conductor\" \"spectrum eta\" \"metal-Xx-eta\"", 2, "no spectrum is called \"metal-Xx-eta\""),
-    ("Material \"conductor\" \"rgb eta\" [1 1 1] \"rgb k\" [1e20 1 1]", 2, "\"k\": [1e20, 1.0, 1.0] is too large"),
-    ("Material \"conductor\" \"rgb reflectance\" [1 1 1.5]", 2, "\"reflectance\": must be at most 1, not 1.5"),
-    ("Material \"conductor\" \"rgb reflectance\" [1 1 1] \"rgb k\" [1 1 1]", 2, "\"reflectance\" cannot be combined"),
-    (
-        "Material \"conductor\" \"rgb reflectance\" [1 1 1] \"float roughness\" -.5",
-        2,
-        "\"roughness\": must be from 0 to 1, not -0.5",
-    ),
-];
-
+/// Texts that follow a valid first line.
 #[test]
 fn errors_name_line_and_value() {
-    for (text, line, part) in FAULTS.iter().chain(FAULTS_OF_LIGHTS) {
-        let message = error(&world(text));
-        assert!(message.starts_with(&format!("a.pbrt:{line}: ")), "{message}\n{text}");
-        assert!(message.contains(part), "{message}\n{text}");
-    }
+    errors_are_those_of(include_str!("faults.txt"), world);
+    assert!(error(&world("# comment\r\nFlim")).starts_with("a.pbrt:3: unknown directive Flim"));
 }
 
 #[test]
 fn errors_before_the_world() {
-    let cases: &[(&str, u32, &str)] = &[
-        ("", 1, "no Camera"),
-        ("WorldBegin\n\n", 2, "no Camera"),
-        ("Camera \"perspective\"\n", 1, "no WorldBegin"),
-        ("Shape \"sphere\"", 1, "Shape must come after WorldBegin"),
-        ("LightSource \"point\"", 1, "LightSource must come after WorldBegin"),
-        ("Camera \"fisheye\"", 1, "Camera \"fisheye\": not supported"),
-        ("WorldEnd", 1, "unknown directive WorldEnd"),
-        ("Camera \"perspective\" \"float lensradius\" -.1", 1, "\"lensradius\": must be at least 0, not -0.1"),
-        ("Camera \"perspective\" \"float focaldistance\" 0", 1, "\"focaldistance\": must be greater than 0, not 0"),
-        ("\nCamera \"perspective\" \"float lensradius\" 1e-45", 2, "radius 1e-45 focused at 1e6"),
-        ("Scale 1e-30 1e-30 1e-30\nCamera \"perspective\" \"float lensradius\" 1e9", 2, "out of the range"),
-        ("Camera \"perspective\" \"float screenwindow\" [1 -1 -1 1]", 1, "is not x0 x1 y0 y1, ascending"),
-        (
-            "Camera \"orthographic\" \"float frameaspectratio\" 0",
-            1,
-            "\"frameaspectratio\": must be greater than 0, not 0",
-        ),
-        (
-            "Camera \"perspective\" \"float fov\" 180",
-            1,
-            "\"fov\": must be greater than 0 and less than 180 degrees, not 180",
-        ),
-        (
-            "Camera \"perspective\" \"float fov\" 0",
-            1,
-            "\"fov\": must be greater than 0 and less than 180 degrees, not 0",
-        ),
-        ("Scale 1 1 0\nCamera \"perspective\"", 2, "its transform is singular"),
-        ("Film \"video\"", 1, "Film \"video\": not supported"),
-        ("Film \"rgb\" \"integer xresolution\" 0", 1, "0 × 720 pixels"),
-        ("Film \"rgb\" \"float diagonal\" 0", 1, "\"diagonal\": must be from 1e-2 to 1e6 mm, not 0e0"),
-        ("Film \"rgb\" \"integer yresolution\" -1", 1, "1280 × -1 pixels"),
-        ("Film \"rgb\" \"integer xresolution\" 65537", 1, "65537 × 720 pixels"),
-        ("Film \"rgb\" \"integer xresolution\" 65536 \"integer yresolution\" 65536", 1, "65536 × 65536 pixels"),
-        ("Sampler \"independent\" \"integer pixelsamples\" 0", 1, "0 samples per pixel"),
-    ];
-    for (text, line, part) in cases {
-        let message = error(text);
-        assert!(message.starts_with(&format!("a.pbrt:{line}: ")) && message.contains(part), "{message}\n{text}");
-    }
+    errors_are_those_of(include_str!("faults_before_the_world.txt"), str::to_owned);
     assert!(matches!(load("no-such-scene"), Err(SceneError::Io { .. })));
     for (name, near) in [("qads", "quads"), ("Quads", "quads"), ("skyy.pbrt", "sky"), ("cornellbox", "cornell-box")] {
         let message = load(name).unwrap_err().to_string();

@@ -1,7 +1,7 @@
 //! Mesh files in all three encodings, and malformed files.
 
 use crate::damaged::damaged;
-use crate::kit::Folder;
+use crate::kit::{Folder, faults};
 use crate::pbrt::text::{LIGHT, normal, read, warnings, world};
 use etendue_render::scene::{Geometry, Parallelogram, Scene};
 use etendue_scene::parse;
@@ -114,48 +114,21 @@ fn malformed_files_name_both_files() {
         assert!(sound.contains(from), "{from}");
         sound.replacen(from, to, 1).into_bytes()
     };
-    let huge = "18446744073709551615";
     let cut = binary(false)[..binary(false).len() - 3].to_vec();
     let cut_message = format!("/m.ply: byte {}: the file ends within element \"face\"", cut.len());
-    let cases: Vec<(Vec<u8>, &str)> = vec![
+    let mut cases: Vec<(Vec<u8>, &str)> = vec![
         (Vec::new(), "/m.ply:1: the file ends within the header"),
         (b"plyx\n".to_vec(), "/m.ply:1: the header: \"plyx\""),
         (b"ply\nformat ascii 1.0\nelem".to_vec(), "/m.ply:3: the file ends within the header: the line \"end_header\""),
         (b"ply\nformat ascii 1.0\n".to_vec(), "/m.ply:3: the file ends within the header: the line \"end_header\""),
-        (changed("format ascii 1.0\n", ""), "/m.ply: the header has no valid line \"format\""),
-        (changed("comment x", "ply"), "/m.ply:3: the header: \"ply\": a second line \"ply\""),
-        (changed("comment x", "format ascii 2.0"), "contradicts an earlier line \"format\""),
-        (changed("comment x", "property float a"), "no line \"element\" precedes this property"),
-        (changed("property float y", "property floaty y"), "/m.ply:6: the header: \"property floaty y\""),
-        (changed("end_header\n", ""), "/m.ply:11: the header: \"0 0 0 7\""),
-        (changed("element vertex 5", &format!("element vertex {huge}")), "do not fit into the"),
-        (changed("element vertex 5", &format!("element vertex {huge}9")), "/m.ply:4: "),
-        (changed("element face 2", "element face 4000000000"), "4000000000 elements \"face\" do not fit"),
-        (changed("property list uchar uint vertex_indices\n", ""), "\"face\" needs one list of integers"),
-        (changed("uint vertex_indices", "float vertex_indices"), "\"face\" needs one list of integers"),
-        (changed("property float z", "property float w"), "element \"vertex\" needs a scalar property \"z\""),
-        (
-            changed("property float z", "property list uchar float z"),
-            "element \"vertex\" needs a scalar property \"z\"",
-        ),
-        (changed("property uchar red", "property float x"), "declared twice"),
-        (
-            changed("element face", &format!("element empty {huge}\nelement face")),
-            "element \"empty\" has no properties",
-        ),
-        (changed("2 0 0 7", "2 0 zero 7"), "/m.ply:13: element \"vertex\": \"2 0 zero 7\": not a number"),
-        (changed("2 0 0 7", "2 0"), "/m.ply:13: element \"vertex\": \"2 0\": fewer numbers than declared"),
-        (changed("2 0 0 7", "2 0 0 7 7"), "/m.ply:13: element \"vertex\": \"2 0 0 7 7\": more numbers than declared"),
-        (changed("2 0 0 7", "2 0 nan 7"), "/m.ply:13: element \"vertex\": \"2 0 nan 7\": "),
-        (changed("2 0 0 7", "2 1e39 0 7"), "vertex 1 is at [2.0, inf, 0.0], which is not finite in f32"),
-        (changed("3 3 2 4", "3 3 2"), "/m.ply:18: element \"face\": \"3 3 2\": fewer numbers than declared"),
-        (changed("3 3 2 4", "3 3 2 -1"), "/m.ply:18: element \"face\": \"3 3 2 -1\": "),
-        (changed("3 3 2 4", "3 3 2 5"), "/m.ply: face 1: index 5 is out of range: there are 5 vertices"),
-        (changed("3 3 2 4", "18446744073709551615 1"), "/m.ply:18: "),
-        (changed("3 3 2 4\n", ""), "/m.ply:18: the file ends within element \"face\""),
         ([&b"ply\nformat ascii 1.0\nelement vertex 1\xff"[..], b"\n"].concat(), "/m.ply:"),
         (cut, &cut_message),
     ];
+    cases.extend(faults(include_str!("faults_of_meshes.txt")).map(|(edit, said)| {
+        let (from, to) = edit.split_once(" ->").unwrap();
+        let [from, to] = [from, to.trim_start()].map(|text| text.replace("\\n", "\n"));
+        (changed(&from, &to), said)
+    }));
     for (bytes, part) in cases {
         let message = load_mesh(&bytes, "").unwrap_err();
         assert!(message.starts_with("a.pbrt:3: Shape \"plymesh\": "), "{message}");
