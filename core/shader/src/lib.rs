@@ -2,7 +2,7 @@
 //!
 //! Every routine of the core is written once over the trait [`Real`](etendue::Real). [`Number`] implements that trait by recording what is
 //! computed: a routine that runs on it leaves a [`Graph`] of its operations, and [`Language::write`] prints this in a language. There is no
-//! second body of any routine, and no second list: [`every_technique`] and [`every_warp`] go through those of the core.
+//! second body of any routine, and no second list: the core's visitors go through its own.
 //!
 //! ```
 //! use etendue_shader::{Language, Selection};
@@ -108,7 +108,6 @@ mod graph;
 mod inputs;
 mod language;
 mod layout;
-mod list;
 mod module;
 mod names;
 mod number;
@@ -123,9 +122,6 @@ mod wanted;
 
 pub use graph::{Branch, Call, Condition, Graph, Id, Kind, Loop, Node, Op};
 pub use language::Language;
-pub use list::{
-    Entry, Technique, TechniqueVisitor, WarpEntry, WarpTechnique, WarpVisitor, With, every_technique, every_warp,
-};
 pub use module::{Access, Field, Function, Leaf, Module, Parameter, Struct, Type};
 pub use names::{pascal, snake};
 pub use number::{Inner, Number, Truth, Word, record};
