@@ -90,13 +90,14 @@ macro_rules! lanewise {
             }
         }
         $crate::lanewise::lanewise_by_map!($name);
+        $crate::real::blended!($name { $($field),+ });
         // of a private struct they are not reachable, nor are all of them used
         #[allow(unreachable_pub, dead_code)]
         impl<R: $crate::real::Real> $name<R> {
             /// Takes the lanes of `yes` where the mask is true, and those of `no` elsewhere.
             #[inline(always)]
             pub fn blend(mask: R::Mask, yes: Self, no: Self) -> Self {
-                Self { $($field: <$kind $(<$lane>)?>::blend(mask, yes.$field, no.$field)),+ }
+                $crate::real::Blend::<R>::blended(mask, yes, no)
             }
         }
     };

@@ -61,6 +61,8 @@ mod distant;
 mod environment;
 mod hierarchy;
 mod line;
+#[doc(hidden)]
+pub mod listed;
 mod on_surface;
 mod parallelogram;
 #[doc(hidden)]

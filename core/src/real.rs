@@ -5,6 +5,7 @@
 //! bits at every width.
 
 mod arctangent;
+mod blend;
 mod functions;
 mod fused;
 mod mask;
@@ -15,6 +16,8 @@ mod uint;
 use core::fmt::Debug;
 use core::ops::{Add, AddAssign, BitAnd, BitOr, BitXor, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};
 
+pub use blend::Blend;
+pub(crate) use blend::blended;
 #[doc(hidden)]
 pub use functions::polynomial;
 #[doc(hidden)]
@@ -209,14 +212,23 @@ pub trait Real:
         Self::from_uint(Self::Uint::splat(0).lt(value) & one).gt(Self::lit(0.0))
     }
 
-    /// What `some` computes in the lanes where the mask is true, `none` in the others: a branch around a path that few calls need.
+    /// What `some` computes in the lanes where the mask is true, `none` in the others: a branch around a path that few calls need. Number types
+    /// that write sources make a branch of it.
     #[inline(always)]
-    fn where_any<const N: usize>(mask: Self::Mask, none: [Self; N], some: impl FnOnce() -> [Self; N]) -> [Self; N] {
+    fn where_any<T: Blend<Self>>(mask: Self::Mask, none: T, some: impl FnOnce() -> T) -> T {
+        if mask.any() { T::blended(mask, some(), none) } else { none }
+    }
+    /// Lets `change` change something in the lanes where the mask is true: [`where_any`](Real::where_any) for what is too large to be copied.
+    #[inline(always)]
+    fn change_any<T: Blend<Self>>(mask: Self::Mask, what: &mut T, change: impl FnOnce(&mut T)) {
         if !mask.any() {
-            return none;
+            return;
         }
-        let some = some();
-        core::array::from_fn(|k| Self::blend(mask, some[k], none[k]))
+        let before = if mask.all() { None } else { Some(*what) };
+        change(what);
+        if let Some(before) = before {
+            *what = T::blended(mask, *what, before);
+        }
     }
     /// Calls `step` while any of the masks is true in any lane, at most `most` times: it gets the numbers and the masks, and returns the next
     /// ones. Lanes that are done must keep their numbers, so that they do not depend on their neighbours. Number types that write sources

@@ -54,7 +54,7 @@ macro_rules! vector {
             /// Takes the lanes of `yes` where the mask is true, and those of `no` elsewhere.
             #[inline(always)]
             pub fn blend(mask: R::Mask, yes: Self, no: Self) -> Self {
-                Self { $($axis: R::blend(mask, yes.$axis, no.$axis)),+ }
+                $crate::real::Blend::<R>::blended(mask, yes, no)
             }
             /// `self * scale + other`.
             #[inline(always)]
@@ -72,6 +72,7 @@ macro_rules! vector {
                 self.length_squared().sqrt()
             }
         }
+        $crate::real::blended!($name { $($axis),+ });
         impl<R: Real> Add for $name<R> {
             type Output = Self;
             #[inline(always)]

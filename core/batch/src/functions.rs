@@ -8,9 +8,9 @@ use crate::memory::TreeMemory;
 use crate::one;
 use crate::packet::Packet;
 use crate::technique::{Prepared, Technique};
-use crate::warp::BatchWarp;
 use core::ffi::c_void;
 use etendue::reflection::Reflection;
+use etendue::warp::listed::ListedWarp as BatchWarp;
 use etendue::{Vec2, Vec3};
 
 type Column = *const f32;
@@ -105,7 +105,7 @@ impl WarpFunctions {
             sample: kernel::warp_sample::<W, R>,
             pdf: kernel::warp_pdf::<W, R>,
             invert: kernel::warp_invert::<W, R>,
-            coordinates: W::COORDINATES,
+            coordinates: W::ENTRY.coordinates,
         }
     }
 }

@@ -7,14 +7,14 @@ use crate::memory::TreeMemory;
 use crate::one::{one_hit, one_invert, one_pdf, one_sample, prepare, typed};
 use crate::packet::{Packet, PacketSpan, packets};
 use crate::technique::{Prepared, Technique};
-use crate::warp::BatchWarp;
 use core::ffi::c_void;
 use core::mem::MaybeUninit;
 use core::ptr::{from_ref, null_mut};
 use etendue::reflection::Reflection;
 use etendue::select::LightChoice;
 use etendue::sequence::Sequence;
-use etendue::{LightSampler, Uint, Vec2, Vec3};
+use etendue::warp::listed::{Coordinates, ListedWarp as BatchWarp};
+use etendue::{LightSampler, Uint, Vec2, Vec3, Warp};
 
 /// Prepared lights of more bytes are used by functions that several loops share, where a call takes little beside what it does.
 const LARGE: usize = 256;
@@ -240,20 +240,24 @@ pub(crate) unsafe extern "C" fn warp_sample<W: BatchWarp, R: Packet>(
     out: &[*mut f32; 3],
 ) {
     // SAFETY: the caller's
-    let warp = unsafe { typed::<W>(warp) }.splat::<R>();
+    let warp = unsafe { typed::<W>(warp) }.over::<R>();
     // SAFETY: the caller's columns have `n` elements
     packets(n, R::LANES, |place| unsafe {
-        let point = W::sample(&warp, Vec2::new(place.load(u.x), place.load(u.y)));
-        for (&column, value) in out.iter().zip(point).take(W::COORDINATES) {
+        let point = warp.sample(Vec2::new(place.load(u.x), place.load(u.y)));
+        for (&column, value) in out.iter().zip(point.coordinates()).take(W::ENTRY.coordinates) {
             place.store(column, value);
         }
     });
 }
 
 #[inline(always)]
-unsafe fn load_point<W: BatchWarp, R: Packet>(place: PacketSpan, points: &[*const f32; 3]) -> [R; 3] {
+unsafe fn load_point<W: BatchWarp, R: Packet>(
+    place: PacketSpan,
+    points: &[*const f32; 3],
+) -> <W::Of<R> as Warp<R>>::Point {
     // SAFETY: the caller's columns are as many as the point has coordinates
-    core::array::from_fn(|k| if k < W::COORDINATES { unsafe { place.load(points[k]) } } else { R::lit(0.0) })
+    let load = |k| if k < W::ENTRY.coordinates { unsafe { place.load(points[k]) } } else { R::lit(0.0) };
+    Coordinates::from_coordinates([0, 1, 2].map(load))
 }
 
 /// The pdf of a warp at points.
@@ -264,9 +268,9 @@ pub(crate) unsafe extern "C" fn warp_pdf<W: BatchWarp, R: Packet>(
     out: *mut f32,
 ) {
     // SAFETY: the caller's
-    let warp = unsafe { typed::<W>(warp) }.splat::<R>();
+    let warp = unsafe { typed::<W>(warp) }.over::<R>();
     // SAFETY: the caller's columns have `n` elements
-    packets(n, R::LANES, |place| unsafe { place.store(out, W::pdf(&warp, load_point::<W, R>(place, points))) });
+    packets(n, R::LANES, |place| unsafe { place.store(out, warp.pdf(load_point::<W, R>(place, points))) });
 }
 
 /// The random numbers that a warp maps to points.
@@ -277,10 +281,10 @@ pub(crate) unsafe extern "C" fn warp_invert<W: BatchWarp, R: Packet>(
     out: Vec2<*mut f32>,
 ) {
     // SAFETY: the caller's
-    let warp = unsafe { typed::<W>(warp) }.splat::<R>();
+    let warp = unsafe { typed::<W>(warp) }.over::<R>();
     // SAFETY: the caller's columns have `n` elements
     packets(n, R::LANES, |place| unsafe {
-        let u = W::invert(&warp, load_point::<W, R>(place, points));
+        let u = warp.invert(load_point::<W, R>(place, points));
         place.store(out.x, u.x);
         place.store(out.y, u.y);
     });

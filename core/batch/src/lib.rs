@@ -46,6 +46,9 @@
 //! of the C header of `etendue-shader`.
 #![cfg_attr(not(test), no_std)]
 
+#[doc(no_inline)]
+pub use etendue::warp::listed::{ListedWarp as BatchWarp, WARPS};
+
 mod columns;
 mod functions;
 mod kernel;
@@ -58,7 +61,6 @@ mod sealed;
 mod sequence;
 mod table;
 pub mod technique;
-mod warp;
 
 pub use columns::{
     ChoiceColumns, Choices, Counters, EvaluationColumns, Evaluations, OneSample, SampleColumns, Samples,
@@ -74,7 +76,6 @@ pub use packet::Packet;
 pub use sequence::BatchSequence;
 pub use table::FunctionTable;
 pub use technique::{Prepared, TECHNIQUES, Technique};
-pub use warp::{BatchWarp, WARPS};
 
 use core::ffi::c_void;
 use core::mem::MaybeUninit;
@@ -213,29 +214,36 @@ impl Batch {
     pub fn warp<W: BatchWarp>(&self, warp: &W, u: [&[f32]; 2], mut out: [&mut [f32]; 3]) {
         let n = u[0].len();
         check(n, u.iter().map(|column| column.len()));
-        check(n, out.iter().take(W::COORDINATES).map(|column| column.len()));
+        check(n, out.iter().take(W::ENTRY.coordinates).map(|column| column.len()));
         let columns = out.each_mut().map(|column| column.as_mut_ptr());
         // SAFETY: the columns that are read and written have n elements, and the outputs are borrowed mutably
         unsafe {
-            (self.warp_functions(W::INDEX).sample)(erased(warp), n, Vec2::new(u[0].as_ptr(), u[1].as_ptr()), &columns)
+            (self.warp_functions(W::ENTRY.index).sample)(
+                erased(warp),
+                n,
+                Vec2::new(u[0].as_ptr(), u[1].as_ptr()),
+                &columns,
+            )
         };
     }
     /// The pdf of a warp at points.
     pub fn warp_pdf<W: BatchWarp>(&self, warp: &W, points: [&[f32]; 3], out: &mut [f32]) {
         let n = out.len();
-        check(n, points.iter().take(W::COORDINATES).map(|column| column.len()));
+        check(n, points.iter().take(W::ENTRY.coordinates).map(|column| column.len()));
         // SAFETY: the columns that are read have n elements, and the output is borrowed mutably
-        unsafe { (self.warp_functions(W::INDEX).pdf)(erased(warp), n, &points.map(<[f32]>::as_ptr), out.as_mut_ptr()) };
+        unsafe {
+            (self.warp_functions(W::ENTRY.index).pdf)(erased(warp), n, &points.map(<[f32]>::as_ptr), out.as_mut_ptr())
+        };
     }
     /// The numbers that a warp maps to points.
     pub fn warp_invert<W: BatchWarp>(&self, warp: &W, points: [&[f32]; 3], out: [&mut [f32]; 2]) {
         let n = out[0].len();
         check(n, out.iter().map(|column| column.len()));
-        check(n, points.iter().take(W::COORDINATES).map(|column| column.len()));
+        check(n, points.iter().take(W::ENTRY.coordinates).map(|column| column.len()));
         let [x, y] = out;
         // SAFETY: the columns that are read and written have n elements, and the outputs are borrowed mutably
         unsafe {
-            let invert = self.warp_functions(W::INDEX).invert;
+            let invert = self.warp_functions(W::ENTRY.index).invert;
             invert(erased(warp), n, &points.map(<[f32]>::as_ptr), Vec2::new(x.as_mut_ptr(), y.as_mut_ptr()));
         }
     }
@@ -245,7 +253,7 @@ impl Batch {
     pub fn warp_one<W: BatchWarp>(&self, warp: &W, u: Vec2<f32>) -> [f32; 3] {
         let mut out = [0.0; 3];
         // SAFETY: the function reads one or two numbers, and writes at most three
-        unsafe { (self.warp_of_one(W::INDEX).one_sample)(erased(warp), row(&u), out.as_mut_ptr()) };
+        unsafe { (self.warp_of_one(W::ENTRY.index).one_sample)(erased(warp), row(&u), out.as_mut_ptr()) };
         out
     }
     /// The pdf of a warp at one point.
@@ -253,7 +261,7 @@ impl Batch {
     #[must_use]
     pub fn warp_pdf_one<W: BatchWarp>(&self, warp: &W, point: &[f32; 3]) -> f32 {
         // SAFETY: the function reads at most three numbers
-        unsafe { (self.warp_of_one(W::INDEX).one_pdf)(erased(warp), point.as_ptr()) }
+        unsafe { (self.warp_of_one(W::ENTRY.index).one_pdf)(erased(warp), point.as_ptr()) }
     }
     /// The numbers that a warp maps to one point.
     #[inline]
@@ -261,7 +269,7 @@ impl Batch {
     pub fn warp_invert_one<W: BatchWarp>(&self, warp: &W, point: &[f32; 3]) -> Vec2<f32> {
         let mut out = Vec2::default();
         // SAFETY: the function reads at most three numbers, and writes one or two
-        unsafe { (self.warp_of_one(W::INDEX).one_invert)(erased(warp), point.as_ptr(), (&raw mut out).cast()) };
+        unsafe { (self.warp_of_one(W::ENTRY.index).one_invert)(erased(warp), point.as_ptr(), (&raw mut out).cast()) };
         out
     }
     /// The results of a map of columns of numbers: as many columns as it has numbers and results, and 1 where they hold, else 0.

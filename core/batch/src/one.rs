@@ -5,10 +5,10 @@
 use crate::columns::OneSample;
 use crate::packet::IS_LONG;
 use crate::technique::{Prepared, Technique};
-use crate::warp::BatchWarp;
 use core::ffi::c_void;
 use core::mem::MaybeUninit;
-use etendue::{LightSampler, Vec2};
+use etendue::warp::listed::{Coordinates, ListedWarp as BatchWarp};
+use etendue::{LightSampler, Vec2, Warp};
 
 /// True in the compilation whose functions of one element and preparations nobody asks for: they do nothing there. x86-64-v4 would compile
 /// them to the instructions of x86-64-v3 again.
@@ -96,26 +96,31 @@ pub(crate) unsafe extern "C" fn one_warp_sample<W: BatchWarp>(warp: *const c_voi
         // SAFETY: the caller's
         unsafe {
             let [x, y] = figures(u.cast());
-            write(out, W::sample(&figures(warp.cast::<W>()).splat::<f32>(), Vec2::new(x, y)), W::COORDINATES);
+            write(
+                out,
+                figures(warp.cast::<W>()).over::<f32>().sample(Vec2::new(x, y)).coordinates(),
+                W::ENTRY.coordinates,
+            );
         }
     }
 }
 /// A point of a warp, of its coordinates in a row.
-unsafe fn point<W: BatchWarp>(numbers: *const f32) -> [f32; 3] {
+unsafe fn point<W: BatchWarp>(numbers: *const f32) -> <W::Of<f32> as Warp<f32>>::Point {
     // SAFETY: the caller's memory has as many numbers as a point has coordinates
-    core::array::from_fn(|k| if k < W::COORDINATES { unsafe { numbers.add(k).read_unaligned() } } else { 0.0 })
+    let number = |k| if k < W::ENTRY.coordinates { unsafe { numbers.add(k).read_unaligned() } } else { 0.0 };
+    Coordinates::from_coordinates([0, 1, 2].map(number))
 }
 /// The pdf of a warp at one point.
 pub(crate) unsafe extern "C" fn one_warp_pdf<W: BatchWarp>(warp: *const c_void, at: *const f32) -> f32 {
     // SAFETY: the caller's
-    if IS_V4 { 0.0 } else { unsafe { W::pdf(&figures(warp.cast::<W>()).splat::<f32>(), point::<W>(at)) } }
+    if IS_V4 { 0.0 } else { unsafe { figures(warp.cast::<W>()).over::<f32>().pdf(point::<W>(at)) } }
 }
 /// The random numbers that a warp maps to one point.
 pub(crate) unsafe extern "C" fn one_warp_invert<W: BatchWarp>(warp: *const c_void, at: *const f32, out: *mut f32) {
     if !IS_V4 {
         // SAFETY: the caller's
         unsafe {
-            let u = W::invert(&figures(warp.cast::<W>()).splat::<f32>(), point::<W>(at));
+            let u = figures(warp.cast::<W>()).over::<f32>().invert(point::<W>(at));
             write(out, [u.x, u.y], 2);
         }
     }

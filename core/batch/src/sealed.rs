@@ -17,4 +17,10 @@
 ///     }
 /// }
 /// ```
-pub trait Sealed {}
+pub trait Sealed<Kind = ()> {}
+/// The kind of techniques.
+#[derive(Clone, Copy, Debug)]
+pub struct Techniques;
+/// The kind of prepared lights.
+#[derive(Clone, Copy, Debug)]
+pub struct Samplers;

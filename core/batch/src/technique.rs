@@ -1,14 +1,13 @@
 //! Techniques over any kind of number: what a loop over packets needs to know of them.
 
 use crate::memory::{ImageMemory, PictureMemory, PortalMemory};
-use crate::sealed::Sealed;
+use crate::sealed::{Samplers, Sealed, Techniques};
 use core::marker::PhantomData;
-use etendue::light::{self, Area, Flat, PicturedSampler, Projected, SolidAngle, VisibleSphere};
-use etendue::reflection::Reflection;
-use etendue::{Lanewise, LightSampler, Real, Vec3};
+use etendue::light::{self, Area, Flat, PicturedSampler, Projected, SolidAngle, VisibleSphere, listed};
+use etendue::{LightSampler, Real, Vec3};
 
 /// A light prepared for a shading point, or the same for all of them, in numbers of single precision.
-pub trait Prepared: Copy + Sealed {
+pub trait Prepared: Copy + Sealed<Samplers> {
     /// The number of a technique that prepares it.
     const INDEX: usize;
     /// The prepared light over packets.
@@ -18,12 +17,12 @@ pub trait Prepared: Copy + Sealed {
 }
 
 /// A light by one technique.
-pub trait Technique: Sized + Sealed {
+pub trait Technique: Sized + Sealed<Techniques> {
     /// Its number: its place in the core's list, and after that in this module's list of lights with memory.
     const INDEX: usize;
     /// The light over numbers, packets of numbers, or columns.
     type Light<X: Copy>: Copy;
-    /// What it is prepared for beside the point: nothing, the unit normal of the surface there, or a [`Reflection`].
+    /// What it is prepared for beside the point: nothing, the unit normal of the surface there, or a [`Reflection`](etendue::reflection::Reflection).
     type With<X: Copy>: Copy;
     /// The prepared light.
     type Prepared: Prepared;
@@ -42,96 +41,74 @@ pub trait Technique: Sized + Sealed {
     ) -> T;
 }
 
-/// The type of what a technique is prepared for, over numbers `X`.
+/// The type of what a light with a picture is prepared for, over numbers `X`, and how these change.
 macro_rules! with {
     ((p, n), $x:ident) => {
         Vec3<$x>
     };
-    ((p, reflection), $x:ident) => {
-        Reflection<$x>
-    };
-    ($place:tt, $x:ident) => {
+    ((p), $x:ident) => {
         ()
     };
-    (map (p, $kind:ident), $with:ident, $f:ident) => {
+    (map (p, n), $with:ident, $f:ident) => {
         $with.map($f)
     };
-    (map $place:tt, $with:ident, $f:ident) => {{
+    (map (p), $with:ident, $f:ident) => {{
         let _ = ($with, $f);
     }};
 }
+#[doc(inline)]
+pub use etendue::light::listed::technique::*;
 
-/// The number of each technique, and those of the core's list.
-macro_rules! implement {
-    ({ $($in_memory:ident),+ } $(
-        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident { $($fields:tt)* } by $default:literal {
-            $(
-                $(#[doc = $doc:literal])* $technique:ident, $name:ident -> $sampler:ident $([$n:literal])? $(= $sampler_c:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
-            )+
-        }
-    )+) => {
-        /// The number of each technique.
-        #[derive(Clone, Copy)]
-        enum Number {
-            $($($technique,)+)+
-            $($in_memory,)+
-        }
-        /// How many techniques there are.
-        pub const TECHNIQUES: usize = [$($(Number::$technique,)+)+ $(Number::$in_memory),+].len();
-        $($(
-            $(#[doc = $doc])*
-            #[derive(Clone, Copy, Debug)]
-            pub struct $technique;
-            impl Sealed for $technique {}
-            impl Technique for $technique {
-                const INDEX: usize = Number::$technique as usize;
-                type Light<X: Copy> = light::$light<X $(, $n)?>;
-                type With<X: Copy> = with!($place, X);
-                type Prepared = light::$sampler<f32 $(, $n)?>;
-                #[inline(always)]
-                fn map_light<X: Copy, Y: Copy>(light: Self::Light<X>, f: impl FnMut(X) -> Y) -> Self::Light<Y> {
-                    light.map(f)
-                }
-                #[inline(always)]
-                fn map_with<X: Copy, Y: Copy>(with: Self::With<X>, f: impl FnMut(X) -> Y) -> Self::With<Y> {
-                    with!(map $place, with, f)
-                }
-                #[inline(always)]
-                fn prepare(light: Self::Light<f32>, p: Vec3<f32>, with: Self::With<f32>) -> Self::Prepared {
-                    Self::prepared::<f32, _>(light, p, with, |sampler| *sampler)
-                }
-                #[inline(always)]
-                fn prepared<R: Real, T>(
-                    light: Self::Light<R>,
-                    p: Vec3<R>,
-                    with: Self::With<R>,
-                    f: impl FnOnce(&light::$sampler<R $(, $n)?>) -> T,
-                ) -> T {
-                    let _ = (p, &with);
-                    f(&etendue::prepared!(light, $by $place, p: p, n: with, reflection: &with))
-                }
-            }
-            implement!(@ $technique, $sampler $([$n])? $(, $size)?);
-        )+)+
-    };
-    // the sampler of another technique
-    (@ $technique:ident, $sampler:ident $([$n:literal])?) => {};
-    (@ $technique:ident, $sampler:ident $([$n:literal])?, $size:literal) => {
-        impl Sealed for light::$sampler<f32 $(, $n)?> {}
-        impl Prepared for light::$sampler<f32 $(, $n)?> {
-            const INDEX: usize = Number::$technique as usize;
-            type Of<'a, R: Real> = light::$sampler<R $(, $n)?>;
-            #[inline(always)]
-            fn over<R: Real<Scalar = f32>, T>(&self, f: impl FnOnce(&Self::Of<'_, R>) -> T) -> T {
-                f(&Lanewise::splat(*self))
-            }
-        }
-    };
+/// The numbers of techniques of lights with memory, after those of the core's list.
+#[derive(Clone, Copy)]
+enum Number {
+    PictureByArea = listed::TECHNIQUES as isize,
+    PictureBySolidAngle,
+    PictureByProjectedSolidAngle,
+    PictureOnSphereByVisibleArea,
+    PortalsByRadiance,
+    ImageByRadiance,
 }
-etendue::techniques!(implement! {
-    { PictureByArea, PictureBySolidAngle, PictureByProjectedSolidAngle, PictureOnSphereByVisibleArea,
-      PortalsByRadiance, ImageByRadiance }
-});
+/// How many techniques there are.
+pub const TECHNIQUES: usize = Number::ImageByRadiance as usize + 1;
+
+impl<T: listed::Technique> Sealed<Techniques> for T {}
+impl<T: listed::Technique> Technique for T {
+    const INDEX: usize = T::ENTRY.index;
+    type Light<X: Copy> = T::Light<X>;
+    type With<X: Copy> = T::With<X>;
+    type Prepared = T::Sampler;
+    #[inline(always)]
+    fn map_light<X: Copy, Y: Copy>(light: T::Light<X>, f: impl FnMut(X) -> Y) -> T::Light<Y> {
+        T::map_light(light, f)
+    }
+    #[inline(always)]
+    fn map_with<X: Copy, Y: Copy>(with: T::With<X>, f: impl FnMut(X) -> Y) -> T::With<Y> {
+        T::map_with(with, f)
+    }
+    #[inline(always)]
+    fn prepare(light: T::Light<f32>, p: Vec3<f32>, with: T::With<f32>) -> T::Sampler {
+        T::prepare_one(light, p, with)
+    }
+    #[inline(always)]
+    fn prepared<R: Real, X>(
+        light: T::Light<R>,
+        p: Vec3<R>,
+        with: T::With<R>,
+        f: impl FnOnce(&listed::Prepared<T, R>) -> X,
+    ) -> X {
+        f(&T::prepare(light, p, with))
+    }
+}
+impl<S: listed::ListedSampler> Sealed<Samplers> for S {}
+impl<S: listed::ListedSampler> Prepared for S {
+    const INDEX: usize = S::INDEX;
+    type Of<'a, R: Real> = S::Over<R>;
+    #[inline(always)]
+    fn over<R: Real<Scalar = f32>, T>(&self, f: impl FnOnce(&S::Over<R>) -> T) -> T {
+        f(&listed::ListedSampler::over(*self))
+    }
+}
 
 /// A light with memory, prepared for a shading point. What is prepared over packets has no form in single precision that a caller could keep, so
 /// that the light and the point are kept, and each call prepares anew: that takes as long as few samples.
@@ -148,7 +125,7 @@ impl<T: InMemory> Clone for Placed<T> {
     }
 }
 impl<T: InMemory> Copy for Placed<T> {}
-impl<T: InMemory> Sealed for Placed<T> {}
+impl<T: InMemory> Sealed<Samplers> for Placed<T> {}
 impl<T: InMemory> Prepared for Placed<T> {
     const INDEX: usize = T::INDEX;
     type Of<'a, R: Real> = T::At<'a, R>;
@@ -182,7 +159,7 @@ macro_rules! pictured {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
         pub struct $technique<'m>(PhantomData<&'m PictureMemory<'m>>);
-        impl Sealed for $technique<'_> {}
+        impl Sealed<Techniques> for $technique<'_> {}
         impl<'m> Technique for $technique<'m> {
             const INDEX: usize = Number::$technique as usize;
             type Light<X: Copy> = OnPicture<'m, light::$light<X>>;
@@ -237,7 +214,7 @@ macro_rules! from_memory {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug)]
         pub struct $technique<'m>(PhantomData<&'m $memory<'m>>);
-        impl Sealed for $technique<'_> {}
+        impl Sealed<Techniques> for $technique<'_> {}
         impl<'m> Technique for $technique<'m> {
             const INDEX: usize = Number::$technique as usize;
             type Light<X: Copy> = $memory<'m>;
@@ -276,7 +253,7 @@ from_memory! {
 impl InMemory for PortalsByRadiance<'_> {
     type At<'a, R: Real> = light::PortalsByRadiance<'a, R>;
 }
-impl Sealed for ImageMemory<'_> {}
+impl Sealed<Samplers> for ImageMemory<'_> {}
 impl<'m> Prepared for ImageMemory<'m> {
     const INDEX: usize = Number::ImageByRadiance as usize;
     type Of<'a, R: Real> = light::ByRadiance<'a>;

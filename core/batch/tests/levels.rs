@@ -7,7 +7,8 @@ use etendue::real::SAME_BITS;
 use etendue::reflection::Reflection;
 use etendue::select::{LightBound, LightChoice, LightTree, Node8};
 use etendue::sequence::Independent;
-use etendue::{LightSample, LightSampler, Vec2, Vec3};
+use etendue::warp::listed::Coordinates;
+use etendue::{LightSample, LightSampler, Vec2, Vec3, Warp};
 use etendue_batch::memory::{ImageMemory, PortalMemory, PortalShape, PortalSums, TreeMemory};
 use etendue_batch::technique::ImageByRadiance;
 use etendue_batch::*;
@@ -288,15 +289,15 @@ impl Visitor for Equal {
     }
     fn warp<W: BatchWarp>(&mut self, name: &str, warp: W) {
         each(|batch, input, n| {
-            let alone = warp.splat::<f32>();
+            let (alone, coordinates) = (warp.over::<f32>(), W::ENTRY.coordinates);
             let u = [input.of(0, n), input.of(1, n)];
             let mut points = [vec![0.0; n], vec![0.0; n], vec![0.0; n]];
             batch.warp(&warp, u, points.each_mut().map(|column| &mut column[..]));
             for i in 0..n {
-                let expected = W::sample(&alone, Vec2::new(u[0][i], u[1][i]));
+                let expected = alone.sample(Vec2::new(u[0][i], u[1][i])).coordinates();
                 let one = batch.warp_one(&warp, Vec2::new(u[0][i], u[1][i]));
                 assert_eq!(one.map(bits), expected.map(bits), "{name}, {batch:?}, one element");
-                for k in 0..W::COORDINATES {
+                for k in 0..coordinates {
                     assert_eq!(bits(points[k][i]), bits(expected[k]), "{name}, {batch:?}, element {i} of {n}");
                 }
             }
@@ -306,9 +307,13 @@ impl Visitor for Equal {
             let mut inverse = [vec![0.0; n], vec![0.0; n]];
             batch.warp_invert(&warp, points, inverse.each_mut().map(|column| &mut column[..]));
             for i in 0..n {
-                let point = core::array::from_fn(|k| if k < W::COORDINATES { points[k][i] } else { 0.0 });
-                assert_eq!(bits(pdf[i]), bits(W::pdf(&alone, point)), "{name}, {batch:?}, element {i} of {n}");
-                let u = W::invert(&alone, point);
+                let point = core::array::from_fn(|k| if k < coordinates { points[k][i] } else { 0.0 });
+                assert_eq!(
+                    bits(pdf[i]),
+                    bits(alone.pdf(Coordinates::from_coordinates(point))),
+                    "{name}, {batch:?}, element {i} of {n}"
+                );
+                let u = alone.invert(Coordinates::from_coordinates(point));
                 let found = [inverse[0][i], inverse[1][i]];
                 assert_eq!(found.map(bits), [u.x, u.y].map(bits), "{name}, {batch:?}, element {i} of {n}");
                 assert_eq!(bits(batch.warp_pdf_one(&warp, &point)), bits(pdf[i]), "{name}, {batch:?}, one element");

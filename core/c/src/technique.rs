@@ -1,7 +1,7 @@
 //! The functions of all techniques, which are given by their numbers.
 
 use crate::environment::EtendueImageEnvironment;
-use crate::list::{EtendueTechnique, TAKES, WITHOUT_MEMORY};
+use crate::list::{self, EtendueTechnique, WITHOUT_MEMORY};
 use crate::memory::{are_there, columns, count_of, outputs, refuse_null, refuse_outside, skip_empty, vec2, vec3};
 use crate::picture::{EtenduePicture, EtenduePicturedParallelogramColumns, EtenduePicturedSphereColumns};
 use crate::portal::EtenduePortalEnvironment;
@@ -53,7 +53,7 @@ macro_rules! functions {
 }
 /// Whether what a light is prepared for is there, where the technique takes it.
 fn is_given(technique: u32, with: *const c_void) -> bool {
-    !with.is_null() || TAKES[technique as usize].with == 0
+    !with.is_null() || list::columns_of(technique as usize).1 == 0
 }
 
 /// Prepares a light for a shading point.
@@ -240,7 +240,7 @@ fn columns_of(technique: usize) -> (usize, usize) {
         let first = size_of::<EtenduePicture>() / size_of::<*const f32>();
         (first, pictured[technique - PICTURES.start] - first)
     } else {
-        (0, TAKES[technique].light)
+        (0, list::columns_of(technique).0)
     }
 }
 /// Calls `f` with lights, shading points and what they are prepared for in columns, of which none may be null.
@@ -253,7 +253,7 @@ unsafe fn with_views(
 ) -> EtendueStatus {
     refuse_null!(lights);
     let functions = functions!(technique_of_each, technique);
-    let ((first, count), withs) = (columns_of(technique as usize), TAKES[technique as usize].with);
+    let ((first, count), withs) = (columns_of(technique as usize), list::columns_of(technique as usize).1);
     // SAFETY: the caller's pointers are null or point to what the header says
     unsafe {
         let Some(points) = columns(p) else { return EtendueStatus::NullPointer };

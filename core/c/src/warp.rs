@@ -7,10 +7,11 @@ use core::mem::size_of;
 use core::ptr::{NonNull, null};
 use etendue::Vec2;
 use etendue::reflection::Reflection;
+use etendue::warp::listed::{ENTRIES, ListedWarp};
 use etendue::warp::{self, *};
-use etendue_batch::{Batch, BatchWarp, WARPS, WarpFunctions};
+use etendue_batch::{Batch, WarpFunctions};
 
-/// The number of each warp, and whether it has parameters.
+/// The number of each warp.
 macro_rules! warps {
     ($($(#[$doc:meta])* $warp:ident $([$r:tt] = $struct:ident)?, $module:ident: $coordinates:literal;)+) => {
         /// A map of two random numbers to points. The comments say how many coordinates there are, if not three.
@@ -19,9 +20,8 @@ macro_rules! warps {
         pub enum EtendueWarp {
             $($(#[$doc])* $warp,)+
         }
-        const HAS_PARAMETERS: [bool; WARPS] = [$(!concat!($(stringify!($struct))?).is_empty()),+];
         const _: () = {
-            $(assert!(EtendueWarp::$warp as usize == <warps!(@ $warp $([$r])?) as BatchWarp>::INDEX);)+
+            $(assert!(EtendueWarp::$warp as usize == <warps!(@ $warp $([$r])?) as ListedWarp>::ENTRY.index);)+
         };
     };
     (@ $warp:ident) => { $warp };
@@ -90,7 +90,7 @@ pub unsafe extern "C" fn etendue_ggx_visible_normals_prepare(
 
 /// The parameters of a warp; of one that has none, a pointer that is not null. None if there is no such warp, or it lacks its parameters.
 fn checked(warp: u32, parameters: *const c_void) -> Result<*const c_void, EtendueStatus> {
-    match HAS_PARAMETERS.get(warp as usize) {
+    match ENTRIES.get(warp as usize).map(|entry| entry.numbers > 0) {
         None => Err(EtendueStatus::Value),
         Some(false) => Ok(NonNull::<f32>::dangling().as_ptr().cast()),
         Some(true) if parameters.is_null() => Err(EtendueStatus::NullPointer),

@@ -4,7 +4,8 @@
 //! the light, the point, the normal, the cursor's direction and the true irradiance in it. Adds the irradiance by an independent oracle in
 //! `oracle` where there is one.
 
-use etendue::light::*;
+use etendue::light::LightSample;
+use etendue::light::listed::{Technique, TechniqueVisitor, With, every_technique};
 use etendue::sequence::{OwenSobol, Sequence};
 use etendue::{LightSampler, Vec2, Vec3};
 use etendue_oracle::{projected_cap, projected_polygon};
@@ -31,20 +32,6 @@ fn double(value: &Value) -> f64 {
 }
 fn hex(x: f64) -> Value {
     json!(format!("{:016x}", x.to_bits()))
-}
-
-/// A field of a light from the next of its numbers.
-macro_rules! field {
-    (number, $x:ident) => {
-        $x.next().expect("a number")
-    };
-    (corners, $x:ident) => {
-        std::array::from_fn(|_| field!(point, $x))
-    };
-    ($vector:ident, $x:ident) => {{
-        let v: [f32; 3] = std::array::from_fn(|_| $x.next().expect("a coordinate"));
-        vector(&v)
-    }};
 }
 
 /// Where the page looks from.
@@ -104,42 +91,24 @@ fn technique(by: &str, sampler: &impl LightSampler<f32>, view: &View) -> Value {
     })
 }
 
-/// What is done for the techniques that the page shows: those that take a point and at most a normal.
-macro_rules! shown {
-    ((p, reflection), $done:expr) => {};
-    ($place:tt, $done:expr) => {
-        $done;
-    };
-}
-macro_rules! answer {
-    ($(
-        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident {
-            $($(#[$field_doc:meta])* $field:ident as $argument:ident: $kind:ident,)+
-        } by $default:literal {
-            $(
-                $(#[$doc:meta])* $technique:ident, $name:ident -> $sampler:ident $([$n:literal])? $(= $sampler_c:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
-            )+
+/// What the page shows of the techniques of a light: those that take a point and at most a normal.
+struct Techniques<'a>(&'a str, &'a View, Vec<Value>);
+impl TechniqueVisitor for Techniques<'_> {
+    fn visit<T: Technique>(&mut self) {
+        let (entry, view) = (T::ENTRY, self.1);
+        if entry.light == self.0 && entry.with() != With::Reflection {
+            let (mut numbers, mut normal) = (view.numbers.iter().copied(), view.n.to_array().into_iter());
+            let light = T::light(&mut || numbers.next().expect("a number"));
+            let with = T::with(&mut || normal.next().expect("a coordinate"));
+            self.2.push(technique(entry.by, &T::prepare(light, view.p, with), view));
         }
-    )+) => {
-        /// What the page shows of the techniques of a light.
-        fn techniques(light: &str, view: &View) -> Value {
-            match light {
-                $(stringify!($light) => {
-                    let mut rest = view.numbers.iter().copied();
-                    let light: $light<f32 $(, $corners)?> = $light { $($field: field!($kind, rest)),+ };
-                    let mut all = Vec::new();
-                    $(shown!($place, {
-                        let sampler = etendue::prepared!(light, $by $place, p: view.p, n: view.n,);
-                        all.push(technique(stringify!($by), &sampler, view));
-                    });)+
-                    json!(all)
-                })+
-                _ => json!(null),
-            }
-        }
-    };
+    }
 }
-etendue::techniques!(answer! {});
+fn techniques(light: &str, view: &View) -> Value {
+    let mut all = Techniques(light, view, Vec::new());
+    every_technique(&mut all);
+    if all.2.is_empty() { json!(null) } else { json!(all.2) }
+}
 
 /// The irradiance by an oracle that shares no code with the page, for lights that it knows.
 fn oracle(light: &str, view: &View) -> Option<f64> {

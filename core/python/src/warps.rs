@@ -15,7 +15,7 @@ pub(crate) trait Mapping: Send + Sync {
 }
 impl<W: BatchWarp + Send + Sync> Mapping for W {
     fn coordinates(&self) -> usize {
-        W::COORDINATES
+        W::ENTRY.coordinates
     }
     fn sample(&self, u: [&[f32]; 2], out: [&mut [f32]; 3]) {
         Batch::new().warp(self, u, out);

@@ -2,18 +2,18 @@
 
 mod node;
 
-pub use node::{Call, Condition, Id, Kind, Loop, Node, Op};
+pub use node::{Branch, Call, Condition, Id, Kind, Loop, Node, Op};
 
 use etendue::{Real, Uint};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
-/// Operations in an order in which each follows its operands, and what the routine asked of its masks.
+/// Operations in an order in which each follows its operands, and the branches of the routine.
 #[derive(Clone, Debug)]
 pub struct Graph {
     nodes: Vec<Node>,
     kinds: Vec<Kind>,
     places: HashMap<Node, Id>,
-    tested: HashSet<Condition>,
+    branches: Vec<Branch>,
     loops: Vec<Loop>,
     /// How many loops have begun.
     begun: u32,
@@ -32,7 +32,7 @@ impl Default for Graph {
             nodes: Vec::new(),
             kinds: Vec::new(),
             places: HashMap::new(),
-            tested: HashSet::new(),
+            branches: Vec::new(),
             loops: Vec::new(),
             begun: 0,
             open: Vec::new(),
@@ -111,10 +111,10 @@ impl Graph {
     pub fn kind(&self, id: Id) -> Kind {
         self.kinds[id as usize]
     }
-    /// The conditions under which the routine takes a path that most of its calls do not need.
+    /// The branches of the routine.
     #[must_use]
-    pub fn tested(&self) -> &HashSet<Condition> {
-        &self.tested
+    pub fn branches(&self) -> &[Branch] {
+        &self.branches
     }
     /// The number, if it is constant.
     #[must_use]
@@ -139,18 +139,16 @@ impl Graph {
     pub fn input(&mut self, kind: Kind, index: u32) -> Id {
         self.place(Node::new(Op::Input(kind, index), &[]), kind)
     }
-    /// Notes that the routine takes a path where a truth value is so.
-    pub fn test(&mut self, mask: Id, holds: bool) {
-        let condition = self.condition(mask, holds);
-        self.tested.insert(condition);
-    }
-    /// That a truth value is so, as a condition on a node that is no `not`.
-    #[must_use]
-    pub fn condition(&self, mut mask: Id, mut holds: bool) -> Condition {
-        while self.node(mask).op == Op::Not {
-            (mask, holds) = (self.node(mask).operands()[0], !holds);
-        }
-        Condition { mask, holds }
+    /// Notes that what was selected by a mask since the graph had `from` nodes is the result of a branch.
+    pub fn branch(&mut self, mask: Id, from: usize) {
+        let node = self.node(mask);
+        let condition = match node.op {
+            Op::Not => Condition { mask: node.operands()[0], holds: false },
+            _ => Condition { mask, holds: true },
+        };
+        let selects = |node: &Node| node.op == Op::Select && node.operands()[0] == condition.mask;
+        let chosen = (from..self.nodes.len()).filter(|&id| selects(&self.nodes[id])).map(|id| id as Id).collect();
+        self.branches.push(Branch { condition, chosen });
     }
     fn place(&mut self, node: Node, kind: Kind) -> Id {
         if let Some(&id) = self.places.get(&node) {

@@ -2,7 +2,7 @@
 //!
 //! Every routine of the core is written once over the trait [`Real`](etendue::Real). [`Number`] implements that trait by recording what is
 //! computed: a routine that runs on it leaves a [`Graph`] of its operations, and [`Language::write`] prints this in a language. There is no
-//! second body of any routine, and no second list: [`every_technique`] and [`every_warp`] go through those of the core.
+//! second body of any routine, and no second list: the core's visitors go through its own.
 //!
 //! ```
 //! use etendue_shader::{Language, Selection};
@@ -35,10 +35,10 @@
 //! decimal numbers that every compiler reads as the same bits.
 //!
 //! # Branches
-//! In the core, `if mask.any()` marks a path that few calls need. A recorded mask is neither all true nor all false, as in a packet whose
-//! lanes differ, so that both sides are recorded, and the graph keeps the condition. [`plan`] then puts into an `if` whatever is used
-//! only where the condition holds. [`Real::where_any`](etendue::Real::where_any) says the same of several numbers at once, and
-//! [`Real::iterate`](etendue::Real::iterate) is a loop. Other loops of the core have constant bounds, and are written out.
+//! In the core, [`Real::where_any`](etendue::Real::where_any) and [`Real::change_any`](etendue::Real::change_any) name a path that few calls
+//! need. Both sides are recorded, with what is selected then, and [`plan`] puts whatever nothing else uses into an `if`.
+//! [`Real::iterate`](etendue::Real::iterate) is a loop; other loops of the core have constant bounds, and are written out. `if mask.any()`
+//! cannot be recorded.
 //!
 //! What a routine asks of one lane as a number of Rust ([`Real::lane_f64`](etendue::Real::lane_f64), a comparison of scalars, the bits of a
 //! mask) is known for constants alone; anything else panics with a message. Portals, whose tables have numbers of 64 bits,
@@ -108,7 +108,6 @@ mod graph;
 mod inputs;
 mod language;
 mod layout;
-mod list;
 mod module;
 mod names;
 mod number;
@@ -121,11 +120,8 @@ mod tools;
 mod translate;
 mod wanted;
 
-pub use graph::{Call, Condition, Graph, Id, Kind, Loop, Node, Op};
+pub use graph::{Branch, Call, Condition, Graph, Id, Kind, Loop, Node, Op};
 pub use language::Language;
-pub use list::{
-    Entry, Technique, TechniqueVisitor, WarpEntry, WarpTechnique, WarpVisitor, With, every_technique, every_warp,
-};
 pub use module::{Access, Field, Function, Leaf, Module, Parameter, Struct, Type};
 pub use names::{pascal, snake};
 pub use number::{Inner, Number, Truth, Word, record};

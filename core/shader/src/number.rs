@@ -1,13 +1,14 @@
 //! The number type that records what a routine computes.
 //!
 //! A routine runs once, and all its paths are recorded: a mask that is not constant counts as neither all true nor all false, as in a packet
-//! whose lanes differ. What a routine asks of one lane (a number to compare in an `if`, the bits of a mask, a lane as f64) is known for
+//! whose lanes differ; a skip of what all lanes do without, by `all`, is left out. What a routine asks of one lane (a number to compare in an `if`, the bits of a mask, a lane as f64) is known for
 //! constants alone; to ask it of anything else panics.
 
 use crate::graph::{Call, Graph, Id, Kind, ONE_MINUS_EPSILON, Op, ZERO};
 use core::cmp::Ordering;
 use core::fmt;
 use core::ops::{Add, AddAssign, BitAnd, BitOr, BitXor, Div, Mul, MulAssign, Neg, Not, Sub, SubAssign};
+use etendue::real::Blend;
 use etendue::{Mask, Real, Uint};
 use std::cell::RefCell;
 
@@ -93,22 +94,13 @@ impl Mask for Truth {
         u32::from(known.expect("a routine asks for the bits of a mask that is not constant: it cannot be recorded"))
     }
     fn any(self) -> bool {
-        with(|graph| {
-            let known = graph.truth(self.0);
-            known.unwrap_or_else(|| {
-                graph.test(self.0, true);
-                true
-            })
-        })
+        let known = with(|graph| graph.truth(self.0));
+        known.expect(
+            "a routine branches by `any` on a mask that is not constant, and not by `where_any`: it cannot be recorded",
+        )
     }
     fn all(self) -> bool {
-        with(|graph| {
-            let known = graph.truth(self.0);
-            known.unwrap_or_else(|| {
-                graph.test(self.0, false);
-                false
-            })
-        })
+        with(|graph| graph.truth(self.0)).unwrap_or(false)
     }
 }
 
@@ -171,6 +163,14 @@ impl Truth {
     pub fn input(index: u32) -> Self {
         Self(with(|graph| graph.input(Kind::Truth, index)))
     }
+}
+
+/// What a branch chooses.
+fn branch<R: Real<Mask = Truth>, T: Blend<R>>(mask: Truth, some: T, none: T) -> T {
+    let from = with(|graph| graph.nodes().len());
+    let chosen = T::blended(mask, some, none);
+    with(|graph| graph.branch(mask.0, from));
+    chosen
 }
 
 macro_rules! real {
@@ -292,6 +292,16 @@ macro_rules! real {
             }
             fn has_bits(value: Word) -> Truth {
                 Truth(add(Op::WordAny, &[value.0]))
+            }
+            fn where_any<T: Blend<Self>>(mask: Truth, none: T, some: impl FnOnce() -> T) -> T {
+                if with(|graph| graph.truth(mask.0)) == Some(false) { none } else { branch(mask, some(), none) }
+            }
+            fn change_any<T: Blend<Self>>(mask: Truth, what: &mut T, change: impl FnOnce(&mut T)) {
+                let before = *what;
+                *what = Self::where_any(mask, before, || {
+                    change(what);
+                    *what
+                });
             }
             fn iterate<const N: usize, const M: usize>(
                 most: usize,

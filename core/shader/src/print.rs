@@ -185,42 +185,24 @@ impl<'a, D: Dialect> Printer<'a, D> {
     /// The text of a statement that is no branch and no loop; those of loops are several lines.
     fn statement(&mut self, step: &Step) -> Vec<String> {
         match *step {
-            Step::Default(id, other) => {
-                let value = other.map(|other| self.value(other).text);
-                let (name, leaf) = (self.declare(id), self.leaf_of(id));
-                return vec![match value {
-                    Some(value) => self.language.mutable(leaf, &name, &value),
-                    None => self.language.variable(leaf, &name),
-                }];
-            }
-            Step::Choose(id, value) => return vec![format!("{} = {};", self.name(id), self.expression(value).text)],
-            _ => {}
-        }
-        let (&Step::Let(id) | &Step::Declare(id) | &Step::Assign(id)) = step else { panic!("{step:?} has statements") };
-        // the variables that get a value, each with that
-        let variables: Vec<(Id, Option<Id>)> = match self.function.graph.as_loop(id) {
-            Some(of) => self.varying(of).map(|k| (of.variables[k], Some(of.first()[k]))).collect(),
-            None => vec![(id, None)],
-        };
-        let line = |(id, first): (Id, Option<Id>)| {
-            let value = |this: &Self| first.map_or_else(|| this.expression(id), |first| this.value(first)).text;
-            match step {
-                Step::Let(_) => {
-                    let value = value(self);
-                    let (name, leaf) = (self.declare(id), self.leaf_of(id));
-                    match first {
-                        Some(_) => self.language.mutable(leaf, &name, &value),
-                        None => self.language.constant(leaf, &name, &value),
-                    }
-                }
-                Step::Declare(_) => {
+            Step::Default(id, other) => vec![self.mutable(id, other)],
+            Step::Choose(id, value) => vec![format!("{} = {};", self.name(id), self.value(value).text)],
+            Step::Let(id) => match self.function.graph.as_loop(id) {
+                Some(of) => self.varying(of).map(|k| self.mutable(of.variables[k], of.first()[k])).collect(),
+                None => {
+                    let value = self.expression(id).text;
                     let name = self.declare(id);
-                    self.language.variable(self.leaf_of(id), &name)
+                    vec![self.language.constant(self.leaf_of(id), &name, &value)]
                 }
-                _ => format!("{} = {};", self.name(id), value(self)),
-            }
-        };
-        variables.into_iter().map(line).collect()
+            },
+            Step::If(..) | Step::Loop(..) => panic!("{step:?} has statements"),
+        }
+    }
+    /// A variable that begins with the value of another node.
+    fn mutable(&mut self, id: Id, first: Id) -> String {
+        let value = self.value(first).text;
+        let name = self.declare(id);
+        self.language.mutable(self.leaf_of(id), &name, &value)
     }
     /// The variables of a loop, without a mask that always holds.
     fn varying(&self, of: &Loop) -> impl Iterator<Item = usize> + use<D> {

@@ -2,11 +2,14 @@
 
 use crate::graph::{Call, Graph, Id};
 use crate::layout::{Slot, slots};
-use crate::list::{Technique, WarpTechnique, WarpVisitor, With, every_warp};
 use crate::module::{Access, Field, Function, Leaf, Module, Parameter, Struct, Type};
 use crate::names::snake;
 use crate::number::{Inner, Number, Truth, record};
 use crate::wanted::{Part, SampleField, Wanted};
+use etendue::light::listed::{self, ListedSampler, Technique, With};
+use etendue::reflection::Reflection;
+use etendue::warp::Warp;
+use etendue::warp::listed::{Coordinates, ListedWarp};
 use etendue::{LightSample, LightSampler, Real, Vec2, Vec3};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -21,8 +24,9 @@ impl Next {
         self.0 += 1;
         Number::input(self.0 - 1)
     }
-    fn numbers(&mut self, count: usize) -> Vec<Number> {
-        (0..count).map(|_| self.number()).collect()
+    fn point<P: Coordinates<Number>>(&mut self, coordinates: usize) -> P {
+        let number = |k| if k < coordinates { self.number() } else { Number::default() };
+        P::from_coordinates([0, 1, 2].map(number))
     }
     fn vec2(&mut self) -> Vec2<Number> {
         let (x, y) = (self.number(), self.number());
@@ -115,23 +119,14 @@ fn all_of(slots: &[Slot]) -> BTreeSet<Id> {
 
 /// The struct of reflections, for which lights are prepared.
 pub(crate) fn reflection_struct() -> Struct {
-    struct Of(Option<Struct>);
-    impl WarpVisitor for Of {
-        fn visit<W: WarpTechnique>(&mut self) {
-            if W::ENTRY.whole {
-                let (warp, _) = record(|| {
-                    let mut next = Next(0);
-                    W::warp(&mut || next.number())
-                });
-                let slots = slots(&warp);
-                let (fields, ..) = fields(&slots, &all_of(&slots));
-                self.0 = Some(Struct { name: W::ENTRY.name.into(), doc: text(W::ENTRY.doc), fields });
-            }
-        }
-    }
-    let mut of = Of(None);
-    every_warp(&mut of);
-    of.0.expect("the list has reflections")
+    type Of = Reflection<f32>;
+    let (warp, _) = record(|| {
+        let mut next = Next(0);
+        Of::warp(&mut || next.number())
+    });
+    let slots = slots(&warp);
+    let (fields, ..) = fields(&slots, &all_of(&slots));
+    Struct { name: Of::ENTRY.name.into(), doc: text(Of::ENTRY.doc), fields }
 }
 
 /// Adds the struct of what was prepared, with the fields that the functions use or with all, and these functions. Returns the struct, if it has any
@@ -202,43 +197,45 @@ pub(crate) fn sample_struct(wanted: &Wanted) -> Struct {
     }
 }
 /// The struct of a light.
-fn light_struct<T: Technique>(light: &T::Light<Number>) -> Struct {
-    let entry = T::ENTRY;
-    let field = |slot: Slot| {
-        let named = |(field, _): &&(&str, _)| slot.name == *field || slot.name.starts_with(&format!("{field}_"));
-        let doc = entry.fields.iter().find(named).map(|(_, doc)| text(doc)).unwrap_or_default();
-        Field { name: slot.name.clone(), leaf: Leaf::of_numbers(slot.parts.len()), doc }
+fn light_struct<T: Technique>() -> Struct {
+    let (entry, mut numbers) = (T::ENTRY, 0);
+    let _ = T::light(&mut || numbers += 1);
+    let fields = |of: &listed::Field| {
+        let names = match of.kind {
+            "corners" => (0..numbers / 3).map(|k| format!("{}_{k}", of.name)).collect(),
+            _ => vec![of.name.to_owned()],
+        };
+        let (leaf, doc) = (if of.kind == "number" { Leaf::Real } else { Leaf::Vec3 }, text(of.doc));
+        names.into_iter().map(|name| Field { name, leaf, doc: doc.clone() }).collect::<Vec<_>>()
     };
-    Struct {
-        name: snake(entry.light),
-        doc: text(entry.light_doc),
-        fields: slots(light).into_iter().map(field).collect(),
-    }
+    let fields = entry.fields.iter().flat_map(fields).collect();
+    Struct { name: snake(entry.light), doc: text(entry.light_doc), fields }
 }
 /// Adds a light by a technique.
 pub fn add_technique<T: Technique>(module: &mut Module, wanted: &Wanted) {
     let entry = T::ENTRY;
     let light_name = snake(entry.light);
     let name = format!("{light_name}_{}", entry.by);
-    let structure = match entry.with {
+    let at_point = entry.place.first() == Some(&"p");
+    let structure = match entry.with() {
         With::Reflection => Some(("reflection", " and what a surface reflects", reflection_struct())),
         With::Nothing | With::Normal => None,
     };
-    let ((light, sampler), preparation) = record(|| {
+    let (sampler, preparation) = record(|| {
         let mut next = Next(0);
         let light = T::light(&mut || next.number());
         // in the order of the parameters: structs come before vectors
         let of_struct = structure.is_some().then(|| T::with(&mut || next.number()));
-        let p = if entry.at_point { next.vec3() } else { Vec3::default() };
+        let p = if at_point { next.vec3() } else { Vec3::default() };
         let with = of_struct.unwrap_or_else(|| T::with(&mut || next.number()));
-        (light, T::prepare(&light, p, with))
+        T::prepare(light, p, with)
     });
 
     let sample = sample_struct(wanted);
     let technique_doc = text(entry.doc);
     let mut functions = Vec::new();
     for part in &wanted.parts {
-        let map = |f: &mut dyn FnMut(Number) -> Number| T::map(sampler, f);
+        let map = |f: &mut dyn FnMut(Number) -> Number| <T::Sampler as ListedSampler>::map_over(sampler, f);
         let w = Some(("w", Leaf::Vec3));
         let doc = |what: &str| (part.name(), format!("{what} {technique_doc}"));
         let real = Type::Leaf(Leaf::Real);
@@ -282,7 +279,7 @@ pub fn add_technique<T: Technique>(module: &mut Module, wanted: &Wanted) {
     let (prepared, outputs) = add_functions(module, &name, prepared_doc, (&slots(&sampler), false), functions);
     let Some(prepared) = prepared else { return };
 
-    let light = module.add_struct(light_struct::<T>(&light));
+    let light = module.add_struct(light_struct::<T>());
     let mut parameters = vec![Parameter { name: "light".into(), of: Type::Struct(light) }];
     let mut doc = "Prepares a light".to_owned();
     if let Some((name, what, structure)) = structure {
@@ -290,11 +287,11 @@ pub fn add_technique<T: Technique>(module: &mut Module, wanted: &Wanted) {
         parameters.push(Parameter { name: name.into(), of: Type::Struct(structure) });
         doc += what;
     }
-    if entry.at_point {
+    if at_point {
         parameters.push(Parameter { name: "p".into(), of: Type::Leaf(Leaf::Vec3) });
         doc += " for the shading point p";
     }
-    if entry.with == With::Normal {
+    if entry.with() == With::Normal {
         parameters.push(Parameter { name: "n".into(), of: Type::Leaf(Leaf::Vec3) });
         doc += " of a surface with the unit normal n";
     }
@@ -311,7 +308,7 @@ pub fn add_technique<T: Technique>(module: &mut Module, wanted: &Wanted) {
 }
 
 /// Adds a warp.
-pub fn add_warp<W: WarpTechnique>(module: &mut Module, wanted: &Wanted) {
+pub fn add_warp<W: ListedWarp>(module: &mut Module, wanted: &Wanted) {
     let entry = W::ENTRY;
     let name = entry.name;
     let (warp, preparation) = record(|| {
@@ -328,19 +325,19 @@ pub fn add_warp<W: WarpTechnique>(module: &mut Module, wanted: &Wanted) {
             Part::Sample => {
                 let doc = told("Maps u, of which each number is in [0, 1), to a point.");
                 Recorded::new(doc, &preparation, map, Some(("u", Leaf::Vec2)), Type::Leaf(point), |warp, next| {
-                    W::sample(warp, next.vec2()).into_iter().map(Number::id).collect()
+                    warp.sample(next.vec2()).coordinates()[..coordinates].iter().map(|x| x.id()).collect()
                 })
             }
             Part::Pdf => {
                 let doc = told("The density of a point; 0 outside of the range.");
                 Recorded::new(doc, &preparation, map, Some(("point", point)), Type::Leaf(Leaf::Real), |warp, next| {
-                    vec![W::pdf(warp, &next.numbers(coordinates)).id()]
+                    vec![warp.pdf(next.point(coordinates)).id()]
                 })
             }
             Part::Invert => {
                 let doc = told("The u that is mapped to a point; any in [0, 1) for a point outside of the range.");
                 Recorded::new(doc, &preparation, map, Some(("point", point)), Type::Leaf(Leaf::Vec2), |warp, next| {
-                    let u = W::invert(warp, &next.numbers(coordinates));
+                    let u = warp.invert(next.point(coordinates));
                     vec![u.x.id(), u.y.id()]
                 })
             }
@@ -348,12 +345,16 @@ pub fn add_warp<W: WarpTechnique>(module: &mut Module, wanted: &Wanted) {
         });
     }
     let prepared_at = module.functions.len();
-    let is_prepared = !entry.prepared_from.is_empty();
-    let (prepared, outputs) = add_functions(module, name, doc.clone(), (&slots(&warp), entry.whole), functions);
-    let (Some(prepared), true) = (prepared, is_prepared) else { return };
+    // lights are prepared for a whole reflection
+    let is_whole = name == Reflection::<f32>::ENTRY.name;
+    // the only one with private fields
+    let prepared_from: &[(&str, usize)] =
+        if name == "ggx_visible_normals" { &[("alpha_x", 1), ("alpha_y", 1), ("wi", 3)] } else { &[] };
+    let (prepared, outputs) = add_functions(module, name, doc.clone(), (&slots(&warp), is_whole), functions);
+    let (Some(prepared), false) = (prepared, prepared_from.is_empty()) else { return };
     let parameter =
         |&(name, count): &(&str, usize)| Parameter { name: name.into(), of: Type::Leaf(Leaf::of_numbers(count)) };
-    let parameters: Vec<_> = entry.prepared_from.iter().map(parameter).collect();
+    let parameters: Vec<_> = prepared_from.iter().map(parameter).collect();
     let prepare = Function {
         name: format!("{name}_prepare"),
         doc: format!("Prepares the map. {doc}"),

@@ -1,12 +1,13 @@
 //! Which lights, warps and tools a source has, by their names.
 
-use crate::list::{Technique, TechniqueVisitor, WarpTechnique, WarpVisitor, every_technique, every_warp};
 use crate::module::Module;
 use crate::names::snake;
 use crate::record::{add_calls, add_technique, add_warp};
 use crate::tables::{add_reflection, tables};
 use crate::tools::{add_tool, tools};
 use crate::wanted::Wanted;
+use etendue::light::listed::{Technique, TechniqueVisitor, every_technique};
+use etendue::warp::listed::{ListedWarp, WarpVisitor, every_warp};
 
 /// The name of a light by a technique.
 #[must_use]
@@ -38,7 +39,7 @@ pub fn lights() -> Vec<(String, Vec<String>)> {
 pub fn warps() -> Vec<String> {
     struct Names(Vec<String>);
     impl WarpVisitor for Names {
-        fn visit<W: WarpTechnique>(&mut self) {
+        fn visit<W: ListedWarp>(&mut self) {
             self.0.push(W::ENTRY.name.into());
         }
     }
@@ -64,7 +65,9 @@ pub struct Selection {
     pub exact: bool,
 }
 
-impl TechniqueVisitor for (&Selection, Module) {
+/// Adds to a module what is selected.
+struct Adds<'a>(&'a Selection, Module);
+impl TechniqueVisitor for Adds<'_> {
     fn visit<T: Technique>(&mut self) {
         let (light, technique) = (snake(T::ENTRY.light), technique_name::<T>());
         if self.0.lights.iter().any(|name| *name == light || *name == technique || name == "all") {
@@ -72,8 +75,8 @@ impl TechniqueVisitor for (&Selection, Module) {
         }
     }
 }
-impl WarpVisitor for (&Selection, Module) {
-    fn visit<W: WarpTechnique>(&mut self) {
+impl WarpVisitor for Adds<'_> {
+    fn visit<W: ListedWarp>(&mut self) {
         if self.0.warps.iter().any(|name| name == W::ENTRY.name || name == "all") {
             add_warp::<W>(&mut self.1, &self.0.wanted);
         }
@@ -84,7 +87,7 @@ impl Selection {
     /// Records all that is selected.
     #[must_use]
     pub fn module(&self) -> Module {
-        let mut visitor = (self, Module { exact: self.exact, ..Module::default() });
+        let mut visitor = Adds(self, Module { exact: self.exact, ..Module::default() });
         every_warp(&mut visitor);
         every_technique(&mut visitor);
         let mut module = visitor.1;

@@ -32,15 +32,10 @@ fn slow(x: Number) -> Number {
 }
 
 #[test]
-fn a_tested_mask_is_a_branch() {
+fn where_any_is_a_branch() {
     let module = function(|x| {
         let zero = Number::lit(0.0);
-        let negative = x.lt(zero);
-        let mut y = x * x;
-        if negative.any() {
-            y = Number::blend(negative, slow(-x), y);
-        }
-        y
+        Number::where_any(x.lt(zero), x * x, || slow(-x))
     });
     assert_eq!(
         body(&module),
@@ -50,39 +45,32 @@ fn a_tested_mask_is_a_branch() {
          return x2;\n"
     );
 }
-/// Without a test the core means a selection.
+/// Without a name for the branch the core means a selection.
 #[test]
 fn a_blend_alone_is_a_selection() {
     let module = function(|x| Number::blend(x.lt(Number::lit(0.0)), -x, x * x));
     assert_eq!(body(&module), "const float x1 = (x < 0.0f) ? -x : x * x;\nreturn x1;\n");
 }
-/// A value that something else needs, too, is not in the branch; one that only a narrower mask selects is.
+/// A value that something else needs, too, is not in the branch; one that the branch alone uses is, wherever it was computed.
 #[test]
 fn only_what_the_branch_alone_needs_is_in_it() {
     let module = function(|x| {
         let (negative, large) = (x.lt(Number::lit(0.0)), x.gt(Number::lit(9.0)));
-        let shared = x.sqrt();
-        let mut y = shared;
-        if negative.any() {
-            let here = negative & !large;
-            y = Number::blend(here, shared / slow(x), y);
-        }
-        y
+        let (shared, own) = (x.sqrt(), slow(x));
+        Number::where_any(negative & !large, shared, || shared / own)
     });
     let text = body(&module);
     let (before, inside) = text.split_once("if (b").unwrap();
     assert!(before.contains("sqrtf(x)") && !before.contains('/'), "{text}");
     assert!(inside.contains('/'), "{text}");
 }
-/// The opposite of a mask, asked for by `all`.
+/// The opposite of a mask, and a number that changes in place.
 #[test]
 fn the_other_side_is_a_branch() {
     let module = function(|x| {
         let small = x.lt(Number::lit(1.0));
         let mut y = Number::lit(0.0);
-        if !small.all() {
-            y = Number::blend(small, y, slow(x));
-        }
+        Number::change_any(!small, &mut y, |y| *y = slow(x));
         y
     });
     assert!(body(&module).contains("if (!b1) {"), "{}", body(&module));
@@ -157,6 +145,7 @@ fn what_cannot_be_recorded_says_so() {
         panics(|x| Number::lit(x.lane_f64(0))),
         panics(move |x| if x.lt(zero()).lane(0) { -x } else { x }),
         panics(move |x| Number::lit(f64::from(x.lt(zero()).bits()))),
+        panics(move |x| if x.lt(zero()).any() { -x } else { x }),
         panics(|x| Number::lit(f64::from(x.to_uint().lane(0)))),
     ] {
         assert!(message.contains("cannot be recorded"), "{message}");
@@ -180,4 +169,36 @@ fn lights_have_branches_and_loops() {
         println!("{light}: {branches} branches, {loops} loops");
         assert!(branches >= 8 && (1..=2).contains(&loops), "{light}: {branches} branches, {loops} loops");
     }
+}
+
+/// The core branches by name; what asks `any` itself cannot be recorded: loops over tables, choices among lights, and sequences of words.
+#[test]
+fn the_core_branches_by_name() {
+    fn look(folder: &std::path::Path, found: &mut Vec<String>) {
+        for entry in std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()) {
+            if entry.is_dir() {
+                look(&entry, found);
+            } else if std::fs::read_to_string(&entry).unwrap().contains("any()") {
+                found.push(entry.to_str().unwrap().rsplit_once("core/src/").unwrap().1.to_owned());
+            }
+        }
+    }
+    let mut found = Vec::new();
+    look(&std::path::Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap().join("src"), &mut found);
+    let may = |file: &String| {
+        [
+            "lights/",
+            "select/",
+            "sequence/",
+            "real.rs",
+            "real/mask.rs",
+            "real/uint.rs",
+            "light/cells.rs",
+            "light/portal.rs",
+        ]
+        .iter()
+        .any(|start| file.starts_with(start))
+    };
+    found.retain(|file| !may(file));
+    assert!(found.is_empty(), "branch by where_any or change_any in {found:?}");
 }

@@ -1,6 +1,6 @@
 //! The arctangent of `libm` for all lanes at once.
 
-use super::{Mask, Real};
+use super::Real;
 
 /// Coefficients of z, z², … in (x − atan x)/x with z = x², for |x| < 7/16.
 const SERIES: [f64; 11] = [
@@ -29,9 +29,9 @@ pub(super) fn atan2<R: Real<Scalar = f64>>(y: R, x: R) -> R {
     // of infinities, too
     let is_diagonal = y.abs().le(x.abs()) & y.abs().ge(x.abs());
     let q = R::blend(is_diagonal, one.keep(x.abs().gt(R::lit(0.0))), (y / x).abs());
-    let (mut offset, mut rest, mut left) = (R::lit(0.0), R::lit(0.0), q);
-    if q.ge(R::lit(0.4375)).any() {
-        let mut divisor = one;
+    let none = (R::lit(0.0), R::lit(0.0), q);
+    let (offset, rest, left) = R::where_any(q.ge(R::lit(0.4375)), none, || {
+        let ((mut offset, mut rest, mut left), mut divisor) = (none, one);
         let mut from = |least: f64, value: f64, lacks: f64, over: R, under: R| {
             let here = q.ge(R::lit(least));
             offset = R::blend(here, R::lit(value), offset);
@@ -43,8 +43,8 @@ pub(super) fn atan2<R: Real<Scalar = f64>>(y: R, x: R) -> R {
         from(0.6875, core::f64::consts::FRAC_PI_4, REST[1], q - one, q + one);
         from(1.1875, 9.827_937_232_473_29e-1, REST[2], q - R::lit(1.5), one + R::lit(1.5) * q);
         from(2.4375, core::f64::consts::FRAC_PI_2, REST[3], -one, q);
-        left = left / divisor;
-    }
+        (offset, rest, left / divisor)
+    });
     let z = left * left;
     let w = z * z;
     let [a, b, c, d, e, f, g, h, i, j, k] = SERIES.map(R::lit);

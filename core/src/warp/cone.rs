@@ -77,12 +77,9 @@ impl<R: Real> Cone<R> {
         // the axis alone decides, unless the direction is beside the limb
         let beyond = R::lit(1.0) - w.dot(frame.n) - self.height();
         let beside = beyond.abs().le(R::lit(BESIDE_LIMB));
-        let mut inside = beyond.lt(R::lit(0.0));
-        if beside.any() {
-            let exactly = self.contains_turned(one_minus_z(frame.to_local(w)));
-            inside = (inside & !beside) | (exactly & beside);
-        }
-        self.uniform_pdf().keep(inside)
+        let pdf = self.uniform_pdf();
+        let exactly = || pdf.keep(self.contains_turned(one_minus_z(frame.to_local(w))));
+        R::where_any(beside, pdf.keep(beyond.lt(R::lit(0.0))), exactly)
     }
 }
 

@@ -6,10 +6,10 @@ mod memory;
 mod technique;
 mod warp;
 
+use etendue::light::listed::TECHNIQUES;
+use etendue::warp::listed::WARPS;
 use etendue_c::*;
 use input::Input;
-use technique::TECHNIQUES;
-use warp::WARPS;
 
 /// Numbers of the largest light and of the largest sampler.
 const LIGHT: usize = 24;
@@ -51,10 +51,10 @@ fn all_finite(columns: &[&[f32]]) -> bool {
 pub fn c_interface(bytes: &[u8]) {
     let mut input = Input { bytes: bytes.iter(), any: false, state: 0 };
     input.any = input.below(2) == 1;
-    match input.below(TECHNIQUES.len() + WARPS.len() + 2) {
-        k if k < TECHNIQUES.len() => technique::check(&mut input, k),
-        k if k < TECHNIQUES.len() + WARPS.len() => warp::check(&mut input, k - TECHNIQUES.len()),
-        k if k == TECHNIQUES.len() + WARPS.len() => choice::sequence(&mut input),
+    match input.below(TECHNIQUES + WARPS + 2) {
+        k if k < TECHNIQUES => technique::check(&mut input, k),
+        k if k < TECHNIQUES + WARPS => warp::check(&mut input, k - TECHNIQUES),
+        k if k == TECHNIQUES + WARPS => choice::sequence(&mut input),
         _ => choice::tree(&mut input),
     }
 }

@@ -1,67 +1,41 @@
 //! The parts of the bindings that no macro can expand are what the core's list of techniques gives. `WRITE=1 cargo test -p etendue-tests
 //! bindings` writes them anew.
 
+use etendue::light::listed::{ENTRIES, Entry, With};
 use std::fmt::Write;
 use std::path::Path;
 
-/// A light: its name, its fields by name, argument and kind, the default technique of hosts, and its techniques.
+/// A light with its techniques.
 struct Light {
     name: &'static str,
-    fields: &'static [[&'static str; 3]],
+    /// Its fields by name, argument and kind.
+    fields: Vec<[&'static str; 3]>,
     default: &'static str,
-    techniques: &'static [BoundTechnique],
+    techniques: &'static [Entry],
 }
 
-/// A technique: its name in C, its sampler, whether no other technique has that, its method, and the arguments of that.
-struct BoundTechnique {
-    name: &'static str,
-    sampler: &'static str,
-    is_own: bool,
-    by: &'static str,
-    place: &'static [&'static str],
+/// The name of a technique in words that begin with capitals.
+fn class(technique: &Entry) -> String {
+    let capital = |word: &str| word[..1].to_uppercase() + &word[1..];
+    technique.name.split('_').map(capital).collect()
 }
-
-impl BoundTechnique {
-    /// Its name in words that begin with capitals.
-    fn class(&self) -> String {
-        let capital = |word: &str| word[..1].to_uppercase() + &word[1..];
-        self.name.split('_').map(capital).collect()
-    }
-    /// How its functions are called beside the point: the number of the macro in the test of C, and the macro of C and C++.
-    fn kind(&self) -> (u8, &'static str) {
-        match self.place {
-            [_, "n"] => (1, "ON_SURFACE"),
-            [_, "reflection"] => (2, "REFLECTED"),
-            _ => (0, "ANYWHERE"),
-        }
+/// How the functions of a technique are called beside the point: the number of the macro in the test of C, and the macro of C and C++.
+fn kind(technique: &Entry) -> (u8, &'static str) {
+    match technique.with() {
+        With::Normal => (1, "ON_SURFACE"),
+        With::Reflection => (2, "REFLECTED"),
+        With::Nothing => (0, "ANYWHERE"),
     }
 }
 
-macro_rules! lights {
-    ($(
-        $(#[$light_doc:meta])* $light:ident $([$corners:literal])? = $light_c:ident, $columns_c:ident {
-            $($(#[$field_doc:meta])* $field:ident as $argument:ident: $kind:ident,)+
-        } by $default:literal {
-            $(
-                $(#[$doc:meta])* $technique:ident, $name:ident -> $sampler:ident $([$n:literal])? $(= $sampler_c:ident[$size:literal])?: $by:ident($($place:ident),*) $($measure:ident)?;
-            )+
-        }
-    )+) => {
-        const LIGHTS: &[Light] = &[$(Light {
-            name: stringify!($light),
-            fields: &[$([stringify!($field), stringify!($argument), stringify!($kind)]),+],
-            default: $default,
-            techniques: &[$(BoundTechnique {
-                name: stringify!($name),
-                sampler: stringify!($sampler),
-                is_own: !concat!($(stringify!($sampler_c))?).is_empty(),
-                by: stringify!($by),
-                place: &[$(stringify!($place)),*],
-            }),+],
-        }),+];
+fn lights() -> Vec<Light> {
+    let light = |techniques: &'static [Entry]| {
+        let Entry { light: name, fields, default, .. } = techniques[0];
+        let fields = fields.iter().map(|field| [field.name, field.argument, field.kind]).collect();
+        Light { name, fields, default, techniques }
     };
+    const { &ENTRIES }.chunk_by(|a, b| a.light == b.light).map(light).collect()
 }
-etendue::techniques!(lights! {});
 
 /// The constructors and the methods of a light in C++.
 fn cpp_light(light: &Light, out: &mut String) -> std::fmt::Result {
@@ -105,7 +79,7 @@ fn cpp_light(light: &Light, out: &mut String) -> std::fmt::Result {
         }
     }
     for technique in light.techniques {
-        let (class, by) = (technique.class(), technique.by);
+        let (class, by) = (class(technique), technique.by);
         let argument = match technique.place {
             [] => {
                 let at = "// The same at every point.";
@@ -132,28 +106,28 @@ fn cpp_light(light: &Light, out: &mut String) -> std::fmt::Result {
 
 fn cpp() -> String {
     let mut out = String::new();
-    for light in LIGHTS {
+    for light in lights() {
         for technique in light.techniques {
-            let (_, kind) = technique.kind();
-            let BoundTechnique { sampler, name, .. } = technique;
-            writeln!(out, "ETENDUE_{kind}({}, {sampler}, {}, etendue_{name})", technique.class(), light.name).unwrap();
+            let (_, kind) = kind(technique);
+            let Entry { sampler, name, .. } = technique;
+            writeln!(out, "ETENDUE_{kind}({}, {sampler}, {}, etendue_{name})", class(technique), light.name).unwrap();
         }
     }
     out.push('\n');
-    for Light { name, .. } in LIGHTS {
+    for Light { name, .. } in lights() {
         writeln!(out, "using {name}Columns = LightColumns<Etendue{name}Columns>;").unwrap();
     }
     out.push('\n');
-    LIGHTS.iter().for_each(|light| cpp_light(light, &mut out).unwrap());
+    lights().iter().for_each(|light| cpp_light(light, &mut out).unwrap());
     out
 }
 
 /// The typed functions of C.
 fn c_typed() -> String {
     let mut out = String::new();
-    for light in LIGHTS {
+    for light in lights() {
         for technique in light.techniques {
-            let ((_, kind), BoundTechnique { sampler, name, .. }) = (technique.kind(), technique);
+            let ((_, kind), Entry { sampler, name, .. }) = (kind(technique), technique);
             writeln!(out, "ETENDUE_{kind}_({name}, {}, {}, {sampler})", name.to_uppercase(), light.name).unwrap();
         }
     }
@@ -163,7 +137,7 @@ fn c_typed() -> String {
 /// The structs that the header has, although no function names them.
 fn c_structs() -> String {
     let mut out = String::new();
-    for light in LIGHTS {
+    for light in lights() {
         let samplers = light.techniques.iter().filter(|technique| technique.is_own).map(|technique| technique.sampler);
         let structs = samplers.map(|sampler| format!("\"Etendue{sampler}\",")).collect::<Vec<_>>();
         writeln!(out, "    \"Etendue{0}\", \"Etendue{0}Columns\", {1}", light.name, structs.join(" ")).unwrap();
@@ -174,9 +148,9 @@ fn c_structs() -> String {
 /// All techniques as a macro of the C test.
 fn c() -> String {
     let mut rows = String::from("#define TECHNIQUES(T)");
-    for light in LIGHTS {
+    for light in lights() {
         for technique in light.techniques {
-            let (kind, _) = technique.kind();
+            let (kind, _) = kind(technique);
             write!(rows, " \\\n    T({}, {}, {}, {kind})", technique.sampler, light.name, technique.name).unwrap();
         }
     }
@@ -189,7 +163,7 @@ fn python_light(light: &Light, out: &mut String) -> std::fmt::Result {
     let arguments: Vec<_> = fields.iter().map(|[_, argument, _]| format!("{argument}: ArrayLike")).collect();
     writeln!(out, "@final\nclass {name}:")?;
     writeln!(out, "    def __new__(cls, {}) -> {name}: ...", arguments.join(", "))?;
-    for BoundTechnique { by, place, .. } in light.techniques {
+    for Entry { by, place, .. } in light.techniques {
         let kind = |name| match name {
             "reflection" => "Reflection",
             _ => "ArrayLike",
@@ -223,12 +197,12 @@ fn python_light(light: &Light, out: &mut String) -> std::fmt::Result {
 
 /// The names that Python's `import *` finds.
 fn python_names() -> String {
-    LIGHTS.iter().map(|Light { name, .. }| format!("    \"{name}\",\n")).collect()
+    lights().iter().map(|Light { name, .. }| format!("    \"{name}\",\n")).collect()
 }
 
 fn python() -> String {
     let mut out = String::new();
-    LIGHTS.iter().for_each(|light| python_light(light, &mut out).unwrap());
+    lights().iter().for_each(|light| python_light(light, &mut out).unwrap());
     out
 }
 

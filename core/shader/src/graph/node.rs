@@ -228,8 +228,17 @@ impl Loop {
     }
 }
 
+/// A path that few calls need.
+#[derive(Clone, Debug)]
+pub struct Branch {
+    /// Where it is taken.
+    pub condition: Condition,
+    /// The nodes that select what it computes, in their order.
+    pub chosen: Vec<Id>,
+}
+
 /// That a truth value is so.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Condition {
     /// The truth value.
     pub mask: Id,

@@ -91,17 +91,6 @@ impl Dialect for C {
     fn constant(&self, of: Leaf, name: &str, value: &str) -> String {
         format!("const {} {name} = {value};", self.leaf(of))
     }
-    fn variable(&self, of: Leaf, name: &str) -> String {
-        match of {
-            Leaf::Real => format!("float {name} = 0.0f;"),
-            Leaf::Truth => format!("bool {name} = false;"),
-            Leaf::Word => format!("etendue_shader_word {name} = 0u;"),
-            Leaf::Vec2 | Leaf::Vec3 => {
-                let zeros = ["0.0f"; 3][..of.parts()].join(", ");
-                format!("{} {name} = {{{zeros}}};", self.leaf(of))
-            }
-        }
-    }
     fn mutable(&self, of: Leaf, name: &str, value: &str) -> String {
         format!("{} {name} = {value};", self.leaf(of))
     }

@@ -102,8 +102,6 @@ pub trait Dialect {
     fn parameter(&self, of: &str, name: &str) -> String;
     /// A variable that keeps its value.
     fn constant(&self, of: Leaf, name: &str, value: &str) -> String;
-    /// A variable that is 0 at first.
-    fn variable(&self, of: Leaf, name: &str) -> String;
     /// A variable with a first value.
     fn mutable(&self, of: Leaf, name: &str, value: &str) -> String;
     /// The first line of a loop that repeats at most so many times, which `counter` counts; a condition, if there is one, begins with `&&`.

@@ -98,10 +98,6 @@ impl Dialect for Wgsl {
     fn constant(&self, _: Leaf, name: &str, value: &str) -> String {
         format!("let {name} = {value};")
     }
-    fn variable(&self, of: Leaf, name: &str) -> String {
-        // variables are 0 at first
-        format!("var {name}: {};", self.leaf(of))
-    }
     fn mutable(&self, _: Leaf, name: &str, value: &str) -> String {
         format!("var {name} = {value};")
     }

@@ -2,6 +2,7 @@
 
 use crate::driver::{HOSTILE, slots};
 use crate::program::Driver;
+use etendue::light::listed::{Entry, Technique, TechniqueVisitor, With, every_technique};
 use etendue::reflection::Reflection;
 use etendue::{LightSample, LightSampler, Real, Vec2, Vec3};
 use etendue_judge::area_lights::AreaLight;
@@ -110,7 +111,7 @@ impl TechniqueVisitor for Lights<'_> {
     fn visit<T: Technique>(&mut self) {
         let entry = T::ENTRY;
         // by reflection, the light is that of the technique before
-        let is_own = matches!(entry.with, With::Nothing | With::Normal);
+        let is_own = matches!(entry.with(), With::Nothing | With::Normal);
         self.kind += usize::from(is_own);
         let kind = self.kind - 1;
         if !is_long() && (self.rest)(&entry, kind) {
@@ -129,7 +130,7 @@ impl TechniqueVisitor for Lights<'_> {
         let mut inputs = arguments(kind, own_numbers);
         let mut random = Random::new(4100 + kind as u64);
         for input in &mut inputs {
-            if entry.with == With::Reflection {
+            if entry.with() == With::Reflection {
                 let [normal, view] = [(); 2].map(|()| vec3(&random.direction().map(|x| x as f32)));
                 let size = random.unit();
                 let lobe = Reflection::new(size * size, normal, view);
@@ -147,7 +148,7 @@ impl TechniqueVisitor for Lights<'_> {
             let (p, u, w) = (vec3(&rest[..3]), Vec2::new(rest[6], rest[7]), vec3(&rest[8..]));
             let mut normal = rest[3..6].iter();
             let with = of_struct.unwrap_or_else(|| T::with(&mut || *normal.next().unwrap()));
-            let sampler = T::prepare(&light, p, with);
+            let sampler = T::prepare(light, p, with);
             let s = sampler.sample(u);
             let mut all = Vec::new();
             sample(&s, &self.wanted, &mut all);
@@ -185,7 +186,12 @@ impl TechniqueVisitor for Lights<'_> {
         driver.take(Type::Leaf(Leaf::Vec2), "u");
         driver.take(vec3, "w");
         if driver.function(&format!("{name}_prepare")).is_some() {
-            let all = [("light", true), ("with", !is_own), ("p", entry.at_point), ("n", entry.with == With::Normal)];
+            let all = [
+                ("light", true),
+                ("with", !is_own),
+                ("p", !entry.place.is_empty()),
+                ("n", entry.with() == With::Normal),
+            ];
             let arguments: Vec<&str> = all.into_iter().filter(|(_, takes)| *takes).map(|(name, _)| name).collect();
             driver.call(&format!("{name}_prepare"), &arguments, "prepared");
         }

@@ -213,20 +213,8 @@ fn together<R: Real>(of: &Arguments<R>) -> Vec<Vec<R>> {
         vec![R::blend(p, a / R::blend(p, b, one), c), R::blend(p, c, a / R::blend(p, one, b)), (a / b).keep(q)],
         vec![a.negate_where(p), R::from_uint(R::blend_uint(p, k, m).shr(9)), (-a).keep(p)],
         // branches
-        vec![{
-            let mut y = a;
-            if p.any() {
-                y = R::blend(p, (a + b).sqrt() / c, y);
-            }
-            y
-        }],
-        vec![{
-            let mut y = b;
-            if !q.all() {
-                y = R::blend(q, y, (a + b).sqrt() / c);
-            }
-            y * a
-        }],
+        vec![R::where_any(p, a, || (a + b).sqrt() / c)],
+        vec![R::where_any(!q, b, || R::where_any(p, a * b, || (a + b).sqrt() / c)) * a],
         R::where_any(p & q, [a, b], || [(a * b).sqrt() + c, (a * b).sqrt() - c]).to_vec(),
         squares(of, 1).to_vec(),
         table_sums(of).to_vec(),

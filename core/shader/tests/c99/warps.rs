@@ -2,7 +2,8 @@
 
 use crate::driver::{HOSTILE, slots};
 use crate::program::Driver;
-use etendue::Vec2;
+use etendue::warp::listed::{Coordinates, ListedWarp, WarpVisitor, every_warp};
+use etendue::{Vec2, Warp};
 use etendue_judge::generators::{Random, unit_or_edge};
 use etendue_oracle::tier::cases;
 use etendue_shader::*;
@@ -11,7 +12,7 @@ use etendue_shader::*;
 struct Warps(usize);
 
 impl WarpVisitor for Warps {
-    fn visit<W: WarpTechnique>(&mut self) {
+    fn visit<W: ListedWarp>(&mut self) {
         let entry = W::ENTRY;
         let mut module = Module::default();
         add_warp::<W>(&mut module, &Wanted::default());
@@ -45,11 +46,12 @@ impl WarpVisitor for Warps {
             let mut next = numbers.iter();
             let warp = W::warp(&mut || *next.next().unwrap());
             let (u, point) = rest.split_at(2);
-            let sampled = W::sample(&warp, Vec2::new(u[0], u[1]));
-            let mut all = sampled.clone();
-            for point in [&sampled, point] {
-                all.push(W::pdf(&warp, point));
-                let Vec2 { x, y } = W::invert(&warp, point);
+            let sampled = warp.sample(Vec2::new(u[0], u[1])).coordinates();
+            let mut all = sampled[..entry.coordinates].to_vec();
+            let given = core::array::from_fn(|k| point.get(k).copied().unwrap_or(0.0));
+            for point in [sampled, given] {
+                all.push(warp.pdf(Coordinates::from_coordinates(point)));
+                let Vec2 { x, y } = warp.invert(Coordinates::from_coordinates(point));
                 all.extend([x, y]);
             }
             all

@@ -4,7 +4,7 @@ use crate::lanewise::lanewise;
 use crate::light::direction::DirectionSample;
 use crate::light::seen::SphericalShape;
 use crate::math::{ratio, rsqrt};
-use crate::real::{Real, unit_interval};
+use crate::real::{Real, blended, unit_interval};
 use crate::vector::double_word::compensated_dot;
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{Linear, Warp};
@@ -56,12 +56,7 @@ impl<R> Quarter<R> {
         Quarter(self.0.map(f))
     }
 }
-impl<R: Real> Quarter<R> {
-    #[inline(always)]
-    fn blend(mask: R::Mask, yes: Self, no: Self) -> Self {
-        Self(core::array::from_fn(|i| R::blend(mask, yes.0[i], no.0[i])))
-    }
-}
+blended!(Quarter { 0 });
 
 const NARROW: [(f64, f64); 5] = [
     (0.046_910_077_030_668_02, 0.118_463_442_528_094_64),

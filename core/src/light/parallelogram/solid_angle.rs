@@ -4,7 +4,7 @@ use crate::lanewise::lanewise_by_map;
 use crate::light::direction::{DirectionSample, to_unit};
 use crate::light::seen::SphericalShape;
 use crate::light::triangle::solid_angle::{Planes, SphericalTriangle};
-use crate::real::{Mask, Real, unit_interval};
+use crate::real::{Real, unit_interval};
 use crate::vector::double_word::{compensated_height, cross_dw, sum_dw};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
@@ -113,15 +113,13 @@ impl<R: Real> Warp<R> for SphericalParallelogram<R> {
         let swept = R::blend(first, u.x * a, v.x.mul_add(b, a));
         let sum = a + b;
         let inverse = R::lit(1.0) / R::blend(sum.gt(R::lit(0.0)), sum, R::lit(1.0));
-        let mut x = unit_interval(swept * inverse);
-        let mut y = R::blend(first, u.y, v.y);
+        let (x, y) = (unit_interval(swept * inverse), R::blend(first, u.y, v.y));
         let steep = self.first.steep(sum) | self.second.steep(sum);
-        if steep.any() {
-            let (triangle, u, rest, _) = self.branch(Vec2::new(x, y));
-            x = unit_interval((triangle.area_beyond(u.x, rest, w, sum) * inverse).keep(steep) + x);
-            let (triangle, u, rest, _) = self.branch(Vec2::new(x, y));
-            y = R::blend(steep, triangle.share_of_arc(u.x, rest, moved), y);
-        }
-        Vec2 { x, y }
+        R::where_any(steep, Vec2::new(x, y), || {
+            let (triangle, at, rest, _) = self.branch(Vec2::new(x, y));
+            let x = unit_interval(triangle.area_beyond(at.x, rest, w, sum) * inverse + x);
+            let (triangle, at, rest, _) = self.branch(Vec2::new(x, y));
+            Vec2::new(x, triangle.share_of_arc(at.x, rest, moved))
+        })
     }
 }

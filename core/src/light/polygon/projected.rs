@@ -4,13 +4,13 @@ use super::corners::PlacedCorners;
 use crate::lanewise::lanewise_by_map;
 use crate::light::direction::{DirectionSample, to_unit};
 use crate::light::seen::ProjectedShape;
-use crate::light::triangle::projected::found::{FoundSector, after, edge};
+use crate::light::triangle::projected::found::{after, edge};
 use crate::light::triangle::projected::piece::narrowest;
 use crate::light::triangle::projected::sector::Sector;
 use crate::light::triangle::projected::zenith::{Search, Side, drop_narrow, sectors, surrounds};
 use crate::light::triangle::projected::{Given, LEAST_HEIGHT, ProjectedTriangle, ahead, area, lack, with_rest, within};
 use crate::math::ratio;
-use crate::real::{Mask, Real, unit_interval};
+use crate::real::{Mask, Real, blended, unit_interval};
 use crate::vector::double_word::{cross_dw, cross_sums, dot_dw, sum_dw, unit_normal};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
@@ -59,6 +59,7 @@ impl<R, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
 }
 
 lanewise_by_map!(ProjectedPolygon, N, ROOM);
+blended!(ProjectedPolygon [N, ROOM] { fan, plane, volume, projected, central });
 
 impl<R: Real> ProjectedParallelogram<R> {
     /// Prepares for a parallelogram with the corner `p` relative to the point and the edges `u` and `v` (in one unit of length), on a surface
@@ -171,40 +172,40 @@ impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
                 near = near & inside(triangle.pole2);
             }
         }
-        if !near.any() {
-            return;
-        }
-        let rounded = |[x, rest]: [R; 2]| (x + rest) * shrink;
-        let areas: [R; N] = core::array::from_fn(|i| rounded(area(long, ends[i], products[i])));
-        let heights: [R; N] = core::array::from_fn(|i| {
-            let [z, more] = dot_dw(corners[i], long);
-            let z = rounded([z, more + rests[i].dot(long)]);
-            z.keep(z.abs().gt(R::lit(LEAST_HEIGHT)))
+        R::change_any(near, self, |this| {
+            let rounded = |[x, rest]: [R; 2]| (x + rest) * shrink;
+            let areas: [R; N] = core::array::from_fn(|i| rounded(area(long, ends[i], products[i])));
+            let heights: [R; N] = core::array::from_fn(|i| {
+                let [z, more] = dot_dw(corners[i], long);
+                let z = rounded([z, more + rests[i].dot(long)]);
+                z.keep(z.abs().gt(R::lit(LEAST_HEIGHT)))
+            });
+            let sides: [Side<R>; N] = core::array::from_fn(|i| {
+                let next = (i + 1) % N;
+                Side {
+                    a: corners[i],
+                    b: corners[next],
+                    product: products[i][0] + products[i][1],
+                    area: areas[i],
+                    heights: [heights[i], heights[next]],
+                }
+            });
+            let central = surrounds(&sides, turn) & this.volume.abs().gt(zero);
+            R::change_any(near & central, this, |this| this.divide_about_zenith(&sides, unit, turn));
         });
-        let sides: [Side<R>; N] = core::array::from_fn(|i| {
-            let next = (i + 1) % N;
-            Side {
-                a: corners[i],
-                b: corners[next],
-                product: products[i][0] + products[i][1],
-                area: areas[i],
-                heights: [heights[i], heights[next]],
-            }
-        });
-        let central = near & surrounds(&sides, turn) & self.volume.abs().gt(zero);
-        if !central.any() {
-            return;
-        }
+    }
+    /// Gives the triangles the sectors about the zenith.
+    #[inline(always)]
+    fn divide_about_zenith(&mut self, sides: &[Side<R>; N], unit: Vec3<R>, turn: R) {
+        let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let (whole, mut sum) = (self.projected, zero);
         for (i, triangle) in self.fan[..Self::TRIANGLES].iter_mut().enumerate() {
-            let mut pieces = sectors(&sides, i, unit, turn);
+            let mut pieces = sectors(sides, i, unit, turn);
             drop_narrow(&mut pieces, whole);
-            let area = pieces[0].area + pieces[1].area;
-            triangle.first.replace(central, &pieces[0]);
-            triangle.second.replace(central, &pieces[1]);
-            triangle.central = triangle.central.keep(!central);
-            triangle.projected = R::blend(central, area, triangle.projected);
-            sum += area;
+            triangle.projected = pieces[0].area + pieces[1].area;
+            [triangle.first, triangle.second] = pieces;
+            triangle.central = zero;
+            sum += triangle.projected;
         }
         // a sector reaches beyond its triangle, which may even have no area: all take the plane of the largest
         let (mut plane, mut volume, mut most) = (self.fan[0].plane, self.fan[0].volume, zero);
@@ -216,11 +217,9 @@ impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
             most = R::blend(larger, size, most);
         }
         for triangle in &mut self.fan[..Self::TRIANGLES] {
-            triangle.plane = Vec3::blend(central, plane, triangle.plane);
-            triangle.volume = R::blend(central, volume, triangle.volume);
+            (triangle.plane, triangle.volume) = (plane, volume);
         }
-        self.projected = R::blend(central, sum, self.projected);
-        self.central = one.keep(central);
+        (self.projected, self.central) = (sum, one);
     }
     /// The sector for u₀, the share of it before the azimuth, counted from its apex, and the number of its triangle.
     #[inline(always)]
@@ -237,12 +236,10 @@ impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
         let mut sum = self.fan[0].projected;
         for (i, triangle) in self.fan[..Self::TRIANGLES].iter().enumerate().skip(1) {
             let later = triangle.projected.gt(zero) & (swept.ge(sum) | sum.le(zero));
-            if later.any() {
+            (sector, share, chosen) = R::where_any(later, (sector, share, chosen), || {
                 let (other, rest) = triangle.choose(swept - sum, left - behind[i]);
-                sector = Sector::blend(later, other, sector);
-                share = R::blend(later, rest, share);
-                chosen = R::blend(later, R::lit(i as f64), chosen);
-            }
+                (other, rest, R::lit(i as f64))
+            });
             sum += triangle.projected;
         }
         (sector, share, chosen)
@@ -313,12 +310,10 @@ impl<R: Real, const N: usize, const ROOM: usize> Warp<R> for ProjectedPolygon<R,
             sum += triangle.projected;
             narrow = narrow | triangle.is_narrow(self.projected);
         }
-        let central = self.central.gt(zero);
-        if central.any() {
+        let found = R::where_any(self.central.gt(zero), found, || {
             let triangles = self.fan[..Self::TRIANGLES].iter();
-            let search = triangles.fold(Search::default(), |search, triangle| triangle.search(search, w, edge));
-            found = FoundSector::blend(central, search.found, found);
-        }
+            triangles.fold(Search::default(), |search, triangle| triangle.search(search, w, edge)).found
+        });
         let found = found.place(normal, w);
         let x = unit_interval(ratio(found.x, self.projected));
         let [y] = R::where_any(narrow, [found.y], || {

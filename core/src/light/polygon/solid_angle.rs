@@ -157,19 +157,17 @@ impl<R: Real, const N: usize> Warp<R> for SphericalPolygon<R, N> {
         let some = sum.gt(zero);
         let swept = u.x.mul_add(chosen.solid_angle(), before);
         let inverse = R::lit(1.0) / R::blend(some, sum, R::lit(1.0));
-        let mut x = unit_interval(swept * inverse);
-        let mut y = u.y;
+        let x = unit_interval(swept * inverse);
         // rounding may move u₀ into the next triangle
         let mut steep = R::Mask::splat(false);
         for triangle in &self.fan[..Self::TRIANGLES] {
             steep = steep | triangle.steep(sum);
         }
-        if steep.any() {
-            let (triangle, u, rest) = self.branch(Vec2::new(x, y));
-            x = unit_interval((triangle.area_beyond(u.x, rest, w, sum) * inverse).keep(steep) + x);
-            let (triangle, u, rest) = self.branch(Vec2::new(x, y));
-            y = R::blend(steep, triangle.share_of_arc(u.x, rest, moved), y);
-        }
-        Vec2 { x, y }
+        R::where_any(steep, Vec2::new(x, u.y), || {
+            let (triangle, at, rest) = self.branch(Vec2::new(x, u.y));
+            let x = unit_interval(triangle.area_beyond(at.x, rest, w, sum) * inverse + x);
+            let (triangle, at, rest) = self.branch(Vec2::new(x, u.y));
+            Vec2::new(x, triangle.share_of_arc(at.x, rest, moved))
+        })
     }
 }

@@ -6,7 +6,7 @@ use crate::lanewise::lanewise;
 use crate::light::direction::DirectionSample;
 use crate::light::seen::SphericalShape;
 use crate::math::{ratio, rsqrt};
-use crate::real::{Mask, Real, unit_interval};
+use crate::real::{Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
 use core::f64::consts::{PI, TAU};
@@ -316,16 +316,16 @@ impl<R: Real> Warp<R> for SphericalRectangle<R> {
             (ratio(R::blend(low.ge(zero), ratio(gap * (y1 + low) * d, sum), sum), r0), r1)
         };
         let (fallen, r1) = fall(y, dy, d);
-        let mut v = ratio(fallen, fall(y0, self.size.y, d).0);
+        let v = ratio(fallen, fall(y0, self.size.y, d).0);
         // next to u₀ = 1 and near the plane, the strip ends elsewhere within the rounding of u₀, and the pair must lead back to h
         let steep = z.lt(R::lit(STEEP) * x1) & share.lt(R::lit(STEEP)) & !from_far;
-        if steep.any() {
+        let v = R::where_any(steep, v, || {
             let (end, rounded) = self.strip_end(u);
             let end = end + x1.keep(self.anchor.x.gt(zero));
             let (all, r) = fall(y0, self.size.y, rounded);
             let moved = y1 * ratio((x - end) * (x + end), r1 + r);
-            v = R::blend(steep, ratio(fallen.mul_add(r, moved), r1 * all), v);
-        }
+            ratio(fallen.mul_add(r, moved), r1 * all)
+        });
         Vec2 { x: u, y: unit_interval(R::blend(self.flip.y.gt(zero), v, one - v)) }
     }
 }

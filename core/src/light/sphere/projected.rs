@@ -7,7 +7,7 @@ use crate::lanewise::lanewise;
 use crate::light::direction::{DirectionSample, above_horizon};
 use crate::light::seen::ProjectedShape;
 use crate::math::{ratio, rsqrt};
-use crate::real::{Mask, Real, unit_interval};
+use crate::real::{Real, unit_interval};
 use crate::vector::double_word::dot_dw;
 use crate::vector::{Frame, Vec2, Vec3};
 use crate::warp::{Cone, Warp, concentric, invert_concentric};
@@ -170,22 +170,16 @@ impl<R: Real> Angles<R> {
         let area = sin_sigma * sin_sigma * cos_omega;
         let near = kappa * cos_theta;
         let over = cos_omega.ge(zero);
-        let (mut part, mut rest, mut projected) = (zero, zero, R::lit(PI) * area);
-        let cut = over & !whole;
-        if cut.any() {
-            part = segment_of(sin_theta, cos_theta);
+        let cut = R::where_any(over & !whole, [zero, zero, R::lit(PI) * area], || {
+            let part = segment_of(sin_theta, cos_theta);
             let on_ellipse = segment_of(ratio(sin_theta, sin_sigma).lesser(one), near);
-            rest = area * on_ellipse;
-            projected = R::blend(whole, projected, part + area * (R::lit(PI) - on_ellipse));
-        }
-        if !over.all() {
+            [part, area * on_ellipse, part + area * (R::lit(PI) - on_ellipse)]
+        });
+        R::where_any(!over, cut, || {
             let lune = half(cos_theta, near);
             let spread = ratio(margin, r).clamped(zero, one);
-            (part, rest) = (R::blend(over, part, lune), R::blend(over, rest, spread));
-            let below = R::lit(2.0) * sin_theta * sin_theta * sin_theta * spread * lune;
-            projected = R::blend(over, projected, below);
-        }
-        [part, rest, projected]
+            [lune, spread, R::lit(2.0) * sin_theta * sin_theta * sin_theta * spread * lune]
+        })
     }
 }
 
@@ -264,20 +258,9 @@ impl<R: Real> ProjectedCap<R> {
     fn local(&self, u: Vec2<R>) -> (Vec3<R>, R) {
         let whole = self.whole();
         let below = self.cos_omega.lt(R::lit(0.0));
-        let (mut w, mut beyond) = (Vec3::default(), R::lit(0.0));
-        if whole.any() {
-            (w, beyond) = self.ellipse(u);
-        }
-        let cut = !whole & !below;
-        if cut.any() {
-            let (v, d) = self.slices(u);
-            (w, beyond) = (Vec3::blend(cut, v, w), R::blend(cut, d, beyond));
-        }
-        if below.any() {
-            let (v, d) = self.lune(u);
-            (w, beyond) = (Vec3::blend(below, v, w), R::blend(below, d, beyond));
-        }
-        (w, beyond)
+        let all = R::where_any(whole, (Vec3::default(), R::lit(0.0)), || self.ellipse(u));
+        let all = R::where_any(!whole & !below, all, || self.slices(u));
+        R::where_any(below, all, || self.lune(u))
     }
 
     /// The whole cap: the concentric disk.
@@ -393,7 +376,6 @@ impl<R: Real> Warp<R> for ProjectedCap<R> {
         let z = w.z.greater(zero);
         let whole = self.whole();
         let below = self.cos_omega.lt(zero);
-        let mut u = Vec2::default();
         // near the horizon, z determines the position across better than x does
         let round = w.y.mul_add(w.y, z * z);
         let off_centre = R::blend(
@@ -402,16 +384,15 @@ impl<R: Real> Warp<R> for ProjectedCap<R> {
             w.x - self.sin_omega * self.cos_sigma,
         );
         let across = ratio(off_centre, self.sin_sigma * self.cos_omega);
-        if whole.any() {
+        let u = R::where_any(whole, Vec2::default(), || {
             let p = Vec2::new(across, ratio(w.y, self.sin_sigma));
             // near the limb of a large cap, z determines the distance from the axis better than x and y do
             let rim = (self.cos_omega * self.cos_sigma - self.sin_omega * self.sin_sigma * across).greater(zero);
             let rest = (z - rim) * (z + rim) / (self.sin_sigma * self.sin_sigma).greater(R::lit(1e-37));
             let r = R::blend(z.le(self.sin_sigma) & rest.lt(half), (one - rest).greater(zero).sqrt(), p.length());
-            u = invert_concentric(p, r.lesser(one));
-        }
-        let cut = !whole & !below;
-        if cut.any() {
+            invert_concentric(p, r.lesser(one))
+        });
+        let u = R::where_any(!whole & !below, u, || {
             let area = self.sin_sigma * self.sin_sigma * self.cos_omega;
             let span = round.sqrt();
             let in_segment = segment_of(span.lesser(one), w.x.clamped(zero, one));
@@ -426,22 +407,16 @@ impl<R: Real> Warp<R> for ProjectedCap<R> {
             let from_chord = (from_end - self.rest).greater(zero);
             let on_ellipse = R::blend(c.lt(zero), self.part + from_chord, self.projected - from_end);
             let from_right = R::blend(on_circle, in_segment, on_ellipse);
-            let mut high = R::blend(on_circle, span, self.sin_sigma * s);
+            let high = R::blend(on_circle, span, self.sin_sigma * s);
             let x = unit_interval(ratio(from_right, self.projected));
             // u₀ ends before 1, at a slice that may be far from the end of a thin ellipse
             let last = x.ge(R::ONE_MINUS_EPSILON) & !on_circle;
-            if last.any() {
+            let high = R::where_any(last, high, || {
                 let (circle, s, _) = self.cut_slice(x);
-                high = R::blend(last, R::blend(circle, s, self.sin_sigma * s), high);
-            }
-            let y = unit_interval(half.mul_add(ratio(w.y, high), half));
-            u = Vec2 { x: R::blend(cut, x, u.x), y: R::blend(cut, y, u.y) };
-        }
-        if below.any() {
-            let found = self.invert_in_lune(w);
-            let (x, y) = (unit_interval(found.x), unit_interval(found.y));
-            u = Vec2 { x: R::blend(below, x, u.x), y: R::blend(below, y, u.y) };
-        }
-        u
+                R::blend(circle, s, self.sin_sigma * s)
+            });
+            Vec2 { x, y: unit_interval(half.mul_add(ratio(w.y, high), half)) }
+        });
+        R::where_any(below, u, || self.invert_in_lune(w).map(unit_interval))
     }
 }

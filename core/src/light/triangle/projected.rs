@@ -10,7 +10,7 @@ use crate::lanewise::lanewise;
 use crate::light::direction::{DirectionSample, to_unit};
 use crate::light::seen::ProjectedShape;
 use crate::math::{ratio, rsqrt};
-use crate::real::{Mask, Real, unit_interval};
+use crate::real::{Real, unit_interval};
 use crate::vector::double_word::{cross_dw, dot_dw, height_dw, sum_dw, unit_normal};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
@@ -188,7 +188,7 @@ impl<R: Real> ProjectedTriangle<R> {
         let poles: [Vec3<R>; 3] = core::array::from_fn(|i| products[i] * inverses[i]);
         let below = z.map(|z| z.lt(zero));
         let cut = below[0] | below[1] | below[2];
-        let mut corners = Corners { vertices: v, poles, lengths, areas, heights: z, volume };
+        let corners = Corners { vertices: v, poles, lengths, areas, heights: z, volume };
         let sides: [Side<R>; 3] = core::array::from_fn(|i| Side {
             a: v[i],
             b: v[(i + 1) % 3],
@@ -198,28 +198,24 @@ impl<R: Real> ProjectedTriangle<R> {
         });
         let turn = one.negate_where(volume.lt(zero));
         let central = surrounds(&sides, turn) & volume.abs().gt(zero);
-        if !central.all() {
-            if cut.any() {
-                let rest;
-                (corners, rest, self.diagonal) = clip(&corners, &exact, normal);
-                if rest.volume.abs().gt(zero).any() {
-                    self.second.sweep(&rest, normal);
-                }
-            }
-            self.first.sweep(&corners, normal);
+        R::change_any(!central, self, |this| {
+            let none = (corners, Corners::default(), Vec3::default());
+            let (first, second, diagonal) = R::where_any(cut, none, || clip(&corners, &exact, normal));
+            this.diagonal = diagonal;
+            R::change_any(second.volume.abs().gt(zero), &mut this.second, |piece| piece.sweep(&second, normal));
+            this.first.sweep(&first, normal);
             // if the horizon leaves next to nothing of a piece, only u = 0 falls into it
-            let least = narrowest::<R>() * (self.first.area + self.second.area);
-            for piece in [&mut self.first, &mut self.second] {
+            let least = narrowest::<R>() * (this.first.area + this.second.area);
+            for piece in [&mut this.first, &mut this.second] {
                 piece.area = piece.area.keep(piece.area.gt(least));
             }
-        }
-        if central.any() {
+        });
+        R::change_any(central, self, |this| {
             let mut pieces = sectors(&sides, 0, normal, turn);
             let whole = pieces[0].area + pieces[1].area;
             drop_narrow(&mut pieces, whole);
-            self.first.replace(central, &pieces[0]);
-            self.second.replace(central, &pieces[1]);
-        }
+            [this.first, this.second] = pieces;
+        });
         let side = |i: usize| {
             // the plane of nearly opposite vertices is known only to −cos : sin of their angle; shorten the pole by that much
             let length = lengths[i];
@@ -239,15 +235,9 @@ impl<R: Real> ProjectedTriangle<R> {
     /// counted from its apex.
     #[inline(always)]
     pub(in crate::light) fn choose(&self, swept: R, left: R) -> (Sector<R>, R) {
-        let (mut sector, mut share) = self.first.choose(swept, left - self.second.area);
-        let some = self.second.area.gt(R::lit(0.0));
-        if some.any() {
-            let later = some & swept.ge(self.first.area);
-            let (other, rest) = self.second.choose(swept - self.first.area, left);
-            sector = Sector::blend(later, other, sector);
-            share = R::blend(later, rest, share);
-        }
-        (sector, share)
+        let first = self.first.choose(swept, left - self.second.area);
+        let later = self.second.area.gt(R::lit(0.0)) & swept.ge(self.first.area);
+        R::where_any(later, first, || self.second.choose(swept - self.first.area, left))
     }
     /// The sector for u₀, and the share of it before the azimuth, counted from its apex.
     #[inline(always)]
@@ -275,17 +265,12 @@ impl<R: Real> ProjectedTriangle<R> {
     /// The sector in which a direction of the triangle is; areas are kept `edge` away from a jump of the map.
     #[inline(always)]
     pub(in crate::light) fn find(&self, w: Vec3<R>, edge: R) -> FoundSector<R> {
-        let mut found = self.first.find(self.normal, w, edge);
-        let areas = [self.first.area, self.second.area];
-        if self.second.area.gt(R::lit(0.0)).any() {
+        let (found, areas) = (self.first.find(self.normal, w, edge), [self.first.area, self.second.area]);
+        let found = R::where_any(self.second.area.gt(R::lit(0.0)), found, || {
             let later = after(areas, w.dot(self.diagonal).gt(R::lit(0.0)), edge);
-            found = found.or(self.second.find(self.normal, w, edge), later, [areas[0], areas[1], edge]);
-        }
-        let central = self.central.gt(R::lit(0.0));
-        if central.any() {
-            found = FoundSector::blend(central, self.search(Search::default(), w, edge).found, found);
-        }
-        found
+            found.or(self.second.find(self.normal, w, edge), later, [areas[0], areas[1], edge])
+        });
+        R::where_any(self.central.gt(R::lit(0.0)), found, || self.search(Search::default(), w, edge).found)
     }
     /// Looks for the azimuth of a direction in the sectors about the zenith.
     #[inline(always)]

@@ -8,7 +8,7 @@ use crate::light::direction::{DirectionSample, to_unit};
 use crate::light::seen::SphericalShape;
 use crate::light::surface::SURFACE_SLACK;
 use crate::math::rsqrt;
-use crate::real::{Mask, Real, unit_interval};
+use crate::real::{Mask, Real, blended, unit_interval};
 use crate::vector::double_word::{cross_dw, height_over, sum_dw};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
@@ -212,6 +212,7 @@ impl<R: Real> SphericalTriangle<R> {
 }
 
 /// The arc from `v1` to the point P of the far edge.
+#[derive(Clone, Copy)]
 struct Arc<R> {
     /// X, the stereographic projection of P from opposite `v1`, towards v0: tan(θ/2) cosφ
     x: R,
@@ -222,6 +223,7 @@ struct Arc<R> {
     /// sinη, and r = sin(H−η)/sinH
     swept: [R; 2],
 }
+blended!(Arc { x, y, m, swept });
 
 impl<R: Real> SphericalTriangle<R> {
     /// The arc that cuts off the share `u` of the area and leaves `rest` = 1−u.
@@ -247,13 +249,13 @@ impl<R: Real> SphericalTriangle<R> {
         let arc = Arc { x, y, m: x.mul_add(x, y * y), swept: [s, left] };
         // a side of more than 120° is rare: do the extra work only where there is one
         let long = self.g2.lt(R::lit(0.5));
-        if long.any() { self.opposite_arc(arc, long) } else { arc }
+        R::where_any(long, arc, || self.opposite_arc(arc))
     }
 
     /// Where v0 lies nearly opposite v1, the angle no longer determines the arc: takes it from P itself where that is better
     /// conditioned.
     #[inline]
-    fn opposite_arc(&self, arc: Arc<R>, long: R::Mask) -> Arc<R> {
+    fn opposite_arc(&self, arc: Arc<R>) -> Arc<R> {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let [w0, w2] = self.weights(arc.swept);
         // 1 + P·V₁/l₁ with V₁/l₁ = −V₀/l₀ + S, where S·V₀/l₀ = G₂ and S·V₂/l₂ = G₁ are small; 1 − P·V₀/l₀ comes from the sine
@@ -265,10 +267,9 @@ impl<R: Real> SphericalTriangle<R> {
         let (first, second) = (w0 * self.sin_side * inverse, w2 * self.x2 * inverse);
         // either X is a sum: of these two terms, or of tan(c/2) and the rest; take the one with less cancellation. The weights
         // of P sum to at least 1, unless v0 is opposite v1 to the last bit, which loses them
-        let known = plus.gt(sum * R::lit(0.125))
+        let better = plus.gt(sum * R::lit(0.125))
             & (w0 + w2).gt(R::lit(0.5))
             & (first + second.abs()).lt(self.tan_half.greater(arc.x.abs()));
-        let better = long & known;
         let most = R::lit(1e15);
         let x = R::blend(better, (first + second).clamped(-most, most), arc.x);
         let y = R::blend(better, (w2 * self.y2 * inverse).lesser(most), arc.y);
@@ -341,12 +342,11 @@ impl<R: Real> Warp<R> for SphericalTriangle<R> {
         let (u, moved) = self.locate(w);
         let whole = self.solid_angle;
         let steep = self.steep(whole);
-        if !steep.any() {
-            return u;
-        }
-        let one = R::lit(1.0);
-        let off = self.area_beyond(u.x, one - u.x, w, whole) / whole.greater(R::lit(1e-37));
-        let x = unit_interval(u.x + off.keep(steep));
-        Vec2 { x, y: R::blend(steep, self.share_of_arc(x, one - x, moved), u.y) }
+        R::where_any(steep, u, || {
+            let one = R::lit(1.0);
+            let off = self.area_beyond(u.x, one - u.x, w, whole) / whole.greater(R::lit(1e-37));
+            let x = unit_interval(u.x + off);
+            Vec2 { x, y: self.share_of_arc(x, one - x, moved) }
+        })
     }
 }

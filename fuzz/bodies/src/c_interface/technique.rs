@@ -3,39 +3,23 @@
 use super::input::{Input, fraction, unit, units};
 use super::memory::Memory;
 use super::{COUNTS, Column, FIELDS, LIGHT, Output, SAMPLER, all_finite, fields, same, sample_columns};
+use etendue::light::listed::{ENTRIES, Entry, With};
 use etendue_c::*;
 use std::ffi::c_void;
 use std::ptr::{from_ref, null, null_mut};
-
-/// A technique, of which every struct is numbers or pointers in a row.
-pub(super) struct Kind {
-    /// The light's struct.
-    name: &'static str,
-    light: usize,
-    sampler: usize,
-    needs: Needs,
-}
-
-/// What a technique is prepared for beside the point.
-#[derive(Clone, Copy, PartialEq)]
-enum Needs {
-    Nothing,
-    Normal,
-    Reflection,
-}
 
 /// The roughness of all surfaces, which are seen along their normals.
 const ALPHA: f32 = 0.3;
 
 /// What a light is prepared for where the surface has this normal, in memory that lives as long as what is returned.
-struct With {
+struct Prepared {
     reflection: EtendueReflection,
     normal: Column,
-    needs: Needs,
+    needs: With,
 }
 
-impl With {
-    unsafe fn new(needs: Needs, normal: Column) -> Self {
+impl Prepared {
+    unsafe fn new(needs: With, normal: Column) -> Self {
         let mut reflection = EtendueReflection { data: [0.0; 14], albedo: 0.0, schlick: 0.0 };
         // SAFETY: the caller's
         let status = unsafe { etendue_reflection_prepare(ALPHA, normal, normal, &mut reflection) };
@@ -44,9 +28,9 @@ impl With {
     }
     fn pointer(&self) -> *const c_void {
         match self.needs {
-            Needs::Nothing => null(),
-            Needs::Normal => self.normal.cast(),
-            Needs::Reflection => from_ref(&self.reflection).cast(),
+            With::Nothing => null(),
+            With::Normal => self.normal.cast(),
+            With::Reflection => from_ref(&self.reflection).cast(),
         }
     }
 }
@@ -59,14 +43,14 @@ struct Withs {
 }
 
 impl Withs {
-    unsafe fn new(needs: Needs, n: usize, normals: &[Column; 3]) -> Self {
+    unsafe fn new(needs: With, n: usize, normals: &[Column; 3]) -> Self {
         let missing = normals.iter().any(|column| column.is_null());
         let mut numbers = vec![0.0; 16 * n.max(1)];
         let mut columns = numbers.chunks_mut(n.max(1)).map(<[f32]>::as_mut_ptr).collect::<Vec<_>>();
         match needs {
-            Needs::Nothing => columns.clear(),
-            Needs::Normal => columns = normals.iter().map(|column| column.cast_mut()).collect(),
-            Needs::Reflection => {
+            With::Nothing => columns.clear(),
+            With::Normal => columns = normals.iter().map(|column| column.cast_mut()).collect(),
+            With::Reflection => {
                 let mut next = columns.iter().copied();
                 let mut next = || next.next().unwrap_or(null_mut());
                 let out = EtendueReflectionColumns { data: [(); 14].map(|()| next()), albedo: next(), schlick: next() };
@@ -87,47 +71,10 @@ impl Withs {
     }
 }
 
-macro_rules! needs {
-    ((p, n)) => {
-        Needs::Normal
-    };
-    ((p, reflection)) => {
-        Needs::Reflection
-    };
-    ($place:tt) => {
-        Needs::Nothing
-    };
-}
-macro_rules! techniques {
-    ($(
-        $(#[$light_doc:meta])* $core:ident $([$corners:literal])? = $light:ident, $columns:ident {
-            $($(#[$field_doc:meta])* $field:ident as $argument:ident: $kind:ident,)+
-        } by $default:literal {
-            $(
-                $(#[$doc:meta])* $technique:ident, $name:ident -> $sampler:ident $([$n:literal])? $(= $sampler_c:ident[$size:literal])?: $by:ident $place:tt $($measure:ident)?;
-            )+
-        }
-    )+) => {
-        /// The techniques at their numbers.
-        pub(super) const TECHNIQUES: &[Kind] = &[$($(
-            Kind {
-                name: stringify!($light),
-                light: size_of::<$light>() / 4,
-                sampler: size_of::<etendue::light::$sampler<f32 $(, $n)?>>() / 4,
-                needs: needs!($place),
-            },
-        )+)+];
-        /// The kinds of the fields of each light.
-        const KINDS: &[(&str, &[&str])] = &[$((stringify!($light), &[$(stringify!($kind)),+]),)+];
-    };
-}
-etendue::techniques!(techniques! {});
-
 /// Where the numbers of a light have a unit vector, if they do.
-fn unit_at(light: &str) -> Option<usize> {
-    let (_, kinds) = KINDS.iter().find(|(name, _)| *name == light)?;
-    let at = kinds.iter().position(|kind| *kind == "direction")?;
-    Some(kinds[..at].iter().map(|kind| if *kind == "number" { 1 } else { 3 }).sum())
+fn unit_at(entry: &Entry) -> Option<usize> {
+    let at = entry.fields.iter().position(|field| field.kind == "direction")?;
+    Some(entry.fields[..at].iter().map(|field| if field.kind == "number" { 1 } else { 3 }).sum())
 }
 
 /// What a technique does for a point.
@@ -177,15 +124,16 @@ impl Calls {
 
 /// Calls the functions of a technique.
 pub(super) fn check(input: &mut Input<'_>, index: usize) {
-    let (t, number) = (&TECHNIQUES[index], index as u32);
-    assert!(t.light <= LIGHT && t.sampler <= SAMPLER, "{} needs more room", t.name);
+    let (t, number) = (&ENTRIES[index], index as u32);
+    let ([light_numbers, sampler_numbers], needs) = (t.numbers, t.with());
+    assert!(light_numbers <= LIGHT && sampler_numbers <= SAMPLER, "{} needs more room", t.name);
     let call = input.below(6);
     let n = COUNTS[input.below(COUNTS.len())];
     // the pointer that is null, if any
     let null_at = input.below(64);
     let absent = u16::from(input.byte()) << 8 | u16::from(input.byte());
-    let mut light: Vec<f32> = (0..t.light).map(|_| input.number()).collect();
-    let unit_at = unit_at(t.name);
+    let mut light: Vec<f32> = (0..light_numbers).map(|_| input.number()).collect();
+    let unit_at = unit_at(t);
     if let Some(at) = unit_at {
         let vector = unit([light[at], light[at + 1], light[at + 2]]);
         light[at..at + 3].copy_from_slice(&vector);
@@ -198,13 +146,13 @@ pub(super) fn check(input: &mut Input<'_>, index: usize) {
     // SAFETY of all calls: pointers are null or to as many numbers as the header demands
     unsafe {
         let out = sampler.as_mut_ptr();
-        let with = With::new(t.needs, normal.as_ptr());
+        let with = Prepared::new(needs, normal.as_ptr());
         let with = with.pointer();
         let prepare =
             |light: Column, p: Column, with, out: Output| etendue_prepare(number, light.cast(), p, with, out.cast());
         assert_eq!(prepare(null(), p.as_ptr(), with, out), EtendueStatus::NullPointer);
         assert_eq!(prepare(light.as_ptr(), null(), with, out), EtendueStatus::NullPointer);
-        if t.needs != Needs::Nothing {
+        if needs != With::Nothing {
             assert_eq!(prepare(light.as_ptr(), p.as_ptr(), null(), out), EtendueStatus::NullPointer);
         }
         let unknown = u32::MAX - index as u32;
@@ -212,7 +160,7 @@ pub(super) fn check(input: &mut Input<'_>, index: usize) {
         assert!(sampler.iter().all(|x| x.to_bits() == 0xA5A5_A5A5));
         let out = sampler.as_mut_ptr();
         assert_eq!(prepare(light.as_ptr(), p.as_ptr(), with, out), EtendueStatus::Ok);
-        assert!(sampler[t.sampler..].iter().all(|x| x.to_bits() == 0xA5A5_A5A5));
+        assert!(sampler[sampler_numbers..].iter().all(|x| x.to_bits() == 0xA5A5_A5A5));
         let (sampler, mut memory) = (sampler.as_ptr(), Memory::new(input, FIELDS, n));
         let (u_memory, w_memory) = (Memory::of(input, &calls.u), Memory::of(input, &calls.w));
         let (mut u_in, mut w_in): ([Column; 2], [Column; 3]) = (u_memory.inputs(), w_memory.inputs());
@@ -268,11 +216,11 @@ pub(super) fn check(input: &mut Input<'_>, index: usize) {
             let mut is_null = false;
             match null_at {
                 3..6 => (p_in[null_at - 3], is_null) = (null(), true),
-                6..9 => (n_in[null_at - 6], is_null) = (null(), t.needs != Needs::Nothing),
-                9..33 => (light_in[null_at - 9], is_null) = (null(), null_at - 9 < t.light),
+                6..9 => (n_in[null_at - 6], is_null) = (null(), needs != With::Nothing),
+                9..33 => (light_in[null_at - 9], is_null) = (null(), null_at - 9 < light_numbers),
                 _ => (),
             }
-            let withs = Withs::new(t.needs, n, &n_in);
+            let withs = Withs::new(needs, n, &n_in);
             let (lights_in, p_in, withs) = (light_in.as_ptr().cast(), p_in.as_ptr(), withs.pointer());
             let function = [Sample, Hit, Invert, Pdf][input.below(4)];
             let status = match function {
@@ -286,7 +234,7 @@ pub(super) fn check(input: &mut Input<'_>, index: usize) {
                 let light: [f32; LIGHT] = std::array::from_fn(|k| lights[k][i]);
                 let [p, normal] = [&points, &normals].map(|c| [c[0][i], c[1][i], c[2][i]]);
                 let mut sampler = [0.0; SAMPLER];
-                let own = With::new(t.needs, normal.as_ptr());
+                let own = Prepared::new(needs, normal.as_ptr());
                 prepare(light.as_ptr(), p.as_ptr(), own.pointer(), sampler.as_mut_ptr());
                 calls.alone(function, sampler.as_ptr(), i)
             });

@@ -3,37 +3,17 @@
 use super::input::{Input, fraction, unit};
 use super::memory::Memory;
 use super::{COUNTS, Column, Output, all_finite};
+use etendue::warp::listed::ENTRIES;
 use etendue_c::*;
 use std::ptr::{null, null_mut};
 
-/// A warp, with its parameters as numbers in a row, if it has any.
-pub(super) struct Warp {
-    name: &'static str,
-    parameters: usize,
-    coordinates: usize,
-}
-
-macro_rules! warps {
-    ($($(#[$doc:meta])* $warp:ident $([R] = $struct:ident)?, $module:ident: $coordinates:literal;)+) => {
-        /// The warps at their numbers.
-        pub(super) const WARPS: &[Warp] = &[$(
-            Warp {
-                name: stringify!($module),
-                parameters: 0 $(+ size_of::<$struct>() / 4)?,
-                coordinates: $coordinates,
-            },
-        )+];
-    };
-}
-etendue::warps!(warps! {});
-
 /// Calls the functions of a warp.
 pub(super) fn check(input: &mut Input<'_>, index: usize) {
-    let (t, number) = (&WARPS[index], index as u32);
+    let (t, number) = (&ENTRIES[index], index as u32);
     let call = input.below(3);
     let n = COUNTS[input.below(COUNTS.len())];
     let null_at = input.below(16);
-    let mut parameters: Vec<f32> = (0..t.parameters.max(1)).map(|_| input.number()).collect();
+    let mut parameters: Vec<f32> = (0..t.numbers.max(1)).map(|_| input.number()).collect();
     let u: [Vec<f32>; 2] = input.columns(n, fraction);
     let x: [Vec<f32>; 3] = input.columns(n, |x| x);
     let is_finite = all_finite(&[&parameters, &u[0], &u[1], &x[0], &x[1], &x[2]]);
@@ -57,7 +37,7 @@ pub(super) fn check(input: &mut Input<'_>, index: usize) {
         let own = parameters.as_ptr();
         let (mut u_in, mut x_in): ([Column; 2], [Column; 3]) = (u_memory.inputs(), x_memory.inputs());
         let self_in = if null_at == 0 { null() } else { own };
-        let self_null = null_at == 0 && t.parameters > 0;
+        let self_null = null_at == 0 && t.numbers > 0;
         if (1..3).contains(&null_at) {
             u_in[null_at - 1] = null();
         }

@@ -3,7 +3,7 @@
 
 use super::{RECTANGLE_SLACK, SphericalRectangle, Strip, corners, window};
 use crate::math::{ratio, rsqrt};
-use crate::real::{Mask, Real};
+use crate::real::Real;
 use crate::vector::double_word::{cross_dw, dot_dw, height_over, rounded_sum, sum_dw};
 use crate::vector::{Vec2, Vec3};
 
@@ -155,11 +155,8 @@ impl<R: Real> SphericalRectangle<R> {
         let inverse_mm = rsqrt(mm(y.near) * mm(y.far));
         let strip = Strip::new(x.far, &y, z, distances[1], inverse_mm);
         let straddles = x.near.lt(zero);
-        let mut near_strip = Strip::default();
-        if straddles.any() {
-            // a lane does not depend on its neighbours, whatever its random numbers are
-            near_strip = Strip::blend(straddles, Strip::new(-x.near, &y, z, distances[0], inverse_mm), near_strip);
-        }
+        let beyond = || Strip::new(-x.near, &y, z, distances[0], inverse_mm);
+        let near_strip = R::where_any(straddles, Strip::default(), beyond);
         // Ω, and whether the rectangle can be sampled
         let solid_angle = window(distances, near, far, size, z);
         let some = solid_angle.gt(R::lit(1e-36)) & solid_angle.lt(R::lit(7.0)) & strip.sin.gt(zero);

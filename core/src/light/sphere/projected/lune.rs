@@ -55,11 +55,8 @@ impl<R: Real> ProjectedCap<R> {
             ratio((arc - self.cos_theta) * (arc + self.cos_theta), self.sin_theta * self.sin_theta).clamped(zero, one);
         let t = ratio(w.y.abs(), self.sin_theta).lesser(one);
         let rest = R::blend(tall, m / (one + (one - m).sqrt()), one - t);
-        let mut left = half - half * ratio(self.slice(rest).area, self.part);
-        let ends = Self::ends(left + left);
-        if ends.any() {
-            left = R::blend(ends, half * ratio(self.tail(rest), self.part), left);
-        }
+        let left = half - half * ratio(self.slice(rest).area, self.part);
+        let left = R::where_any(Self::ends(left + left), left, || half * ratio(self.tail(rest), self.part));
         let inward = ratio(z * z, arc + x);
         Vec2 {
             x: R::blend(w.y.lt(zero), left, one - left),
@@ -169,10 +166,7 @@ impl<R: Real> ProjectedCap<R> {
         let (steps, enough) = if R::DOUBLE { (7, 0.0) } else { (4, 1.0 / 128.0) };
         let step = |[rest]: [R; 1], [open]: [R::Mask; 1]| {
             let slice = self.slice(rest);
-            let mut off = slice.area - target;
-            if (ends & open).any() {
-                off = R::blend(ends, left * self.part - self.tail(rest), off);
-            }
+            let off = R::where_any(ends & open, slice.area - target, || left * self.part - self.tail(rest));
             // Halley's method, off/(f − ½ off f′/f), and at most twice Newton's step
             let steep = slice.m * slice.width;
             let step = ratio(slice.m * off, (steep - half * off * slice.slope).greater(half * steep));

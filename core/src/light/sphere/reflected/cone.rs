@@ -138,45 +138,45 @@ pub(super) fn projected_solid_angle<R: Real>(center: Vec3<R>, u: Vec3<R>, v: Vec
     let reach = x.mul_add(x, y * y).sqrt();
     let cut = n3.abs().lt(reach);
     let above = whole.keep(n3.ge(reach));
-    if !cut.any() {
-        return above;
-    }
-    // from the middle of the part above the horizon to either end
-    let some = reach.gt(zero);
-    let inverse = one / R::blend(some, reach, one);
-    let (cos, sin) = (R::blend(some, x * inverse, one), y * inverse);
-    let cosine = (-n3 * inverse).clamped(-one, one);
-    let sine = ((one - cosine) * (one + cosine)).sqrt();
-    let from = [cos.mul_add(cosine, sin * sine), sin.mul_add(cosine, -(cos * sine))];
-    let to = [cos.mul_add(cosine, -(sin * sine)), sin.mul_add(cosine, cos * sine)];
-    let turn = |[a, b]: [R; 2], [c, d]: [R; 2]| {
-        let turn = a.mul_add(d, -(b * c)).atan2(a.mul_add(c, b * d));
-        R::blend(turn.lt(zero), turn + R::lit(2.0 * PI), turn)
-    };
-    let (root_p, root_q) = (p.sqrt(), q.sqrt());
-    let stretched = |[c, s]: [R; 2]| [c * root_p, s * root_q];
-    let even = turn(stretched(from), stretched(to)) * over;
-    let difference = (a - b) * (a + b);
-    // ∫ cos t and ∫ sin t over P cos²t + Q sin²t
-    let by_cosine = |[c, s]: [R; 2]| {
-        let square = c.mul_add(c * p, s * s * q);
-        ratio(s, p) * artanh_over(s * s * ratio(difference, p), ratio(square, p))
-    };
-    let by_sine = |[c, _]: [R; 2]| {
-        let root = difference.greater(zero).sqrt();
-        let tangent = c * root * ratio(one, root_q);
-        let small = tangent.abs().lt(R::lit(1e-3));
-        let angle = R::blend(
-            small,
-            one - tangent * tangent * R::lit(1.0 / 3.0),
-            tangent.atan2(one) / R::blend(small, one, tangent),
-        );
-        -(ratio(c, q) * angle)
-    };
-    let arc = a * b * n3 * even - b * n1 * (by_cosine(to) - by_cosine(from)) - a * n2 * (by_sine(to) - by_sine(from));
-    // the horizon from the end of the edge back to its beginning
-    let point = |[c, s]: [R; 2]| axes[0].mul_add(a * c, axes[1].mul_add(b * s, axes[2]));
-    let (start, end) = (point(from), point(to));
-    let back = end.x.mul_add(start.y, -(end.y * start.x)).atan2(end.x.mul_add(start.x, end.y * start.y));
-    R::blend(cut, ((arc + back) * half).greater(zero), above)
+    R::where_any(cut, above, || {
+        // from the middle of the part above the horizon to either end
+        let some = reach.gt(zero);
+        let inverse = one / R::blend(some, reach, one);
+        let (cos, sin) = (R::blend(some, x * inverse, one), y * inverse);
+        let cosine = (-n3 * inverse).clamped(-one, one);
+        let sine = ((one - cosine) * (one + cosine)).sqrt();
+        let from = [cos.mul_add(cosine, sin * sine), sin.mul_add(cosine, -(cos * sine))];
+        let to = [cos.mul_add(cosine, -(sin * sine)), sin.mul_add(cosine, cos * sine)];
+        let turn = |[a, b]: [R; 2], [c, d]: [R; 2]| {
+            let turn = a.mul_add(d, -(b * c)).atan2(a.mul_add(c, b * d));
+            R::blend(turn.lt(zero), turn + R::lit(2.0 * PI), turn)
+        };
+        let (root_p, root_q) = (p.sqrt(), q.sqrt());
+        let stretched = |[c, s]: [R; 2]| [c * root_p, s * root_q];
+        let even = turn(stretched(from), stretched(to)) * over;
+        let difference = (a - b) * (a + b);
+        // ∫ cos t and ∫ sin t over P cos²t + Q sin²t
+        let by_cosine = |[c, s]: [R; 2]| {
+            let square = c.mul_add(c * p, s * s * q);
+            ratio(s, p) * artanh_over(s * s * ratio(difference, p), ratio(square, p))
+        };
+        let by_sine = |[c, _]: [R; 2]| {
+            let root = difference.greater(zero).sqrt();
+            let tangent = c * root * ratio(one, root_q);
+            let small = tangent.abs().lt(R::lit(1e-3));
+            let angle = R::blend(
+                small,
+                one - tangent * tangent * R::lit(1.0 / 3.0),
+                tangent.atan2(one) / R::blend(small, one, tangent),
+            );
+            -(ratio(c, q) * angle)
+        };
+        let arc =
+            a * b * n3 * even - b * n1 * (by_cosine(to) - by_cosine(from)) - a * n2 * (by_sine(to) - by_sine(from));
+        // the horizon from the end of the edge back to its beginning
+        let point = |[c, s]: [R; 2]| axes[0].mul_add(a * c, axes[1].mul_add(b * s, axes[2]));
+        let (start, end) = (point(from), point(to));
+        let back = end.x.mul_add(start.y, -(end.y * start.x)).atan2(end.x.mul_add(start.x, end.y * start.y));
+        ((arc + back) * half).greater(zero)
+    })
 }

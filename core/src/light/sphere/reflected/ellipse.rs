@@ -2,7 +2,7 @@
 
 use crate::lanewise::lanewise;
 use crate::math::{difference_of_products, quotient, ratio};
-use crate::real::{Mask, Real, unit_interval};
+use crate::real::{Mask, Real, blended, unit_interval};
 use crate::vector::{Vec2, Vec3};
 use core::f64::consts::{PI, TAU};
 
@@ -63,11 +63,8 @@ impl<R> Nodes<R> {
         Nodes(self.0.map(f))
     }
 }
+blended!(Nodes { 0 });
 impl<R: Real> Nodes<R> {
-    #[inline(always)]
-    fn blend(mask: R::Mask, yes: Self, no: Self) -> Self {
-        Self(core::array::from_fn(|i| R::blend(mask, yes.0[i], no.0[i])))
-    }
     /// Cell `i`: the first and the last are parabolas, as the true density grows there; the others are lines.
     #[inline(always)]
     fn cell(&self, i: usize, before: R) -> Cell<R> {

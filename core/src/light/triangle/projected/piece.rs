@@ -5,7 +5,7 @@ use super::found::{FoundSector, after};
 use super::sector::{Corner, Sector};
 use crate::lanewise::lanewise;
 use crate::math::{ratio, rsqrt};
-use crate::real::{Mask, Real};
+use crate::real::{Mask, Real, blended};
 use crate::vector::Vec3;
 
 /// Share of the area below which a sector is dropped: a small part of a step of 2⁻²⁴ in `u`, or of the precision.
@@ -36,6 +36,7 @@ lanewise! {
 }
 
 /// A triangle, with the quantities that give its sectors.
+#[derive(Clone, Copy, Default)]
 pub(in crate::light) struct Corners<R> {
     /// relative to the point
     pub(super) vertices: [Vec3<R>; 3],
@@ -50,6 +51,7 @@ pub(in crate::light) struct Corners<R> {
     /// det(v₀, v₁, v₂)
     pub(super) volume: R,
 }
+blended!(Corners { vertices, poles, lengths, areas, heights, volume });
 
 impl<R: Real> Piece<R> {
     /// Prepares two sectors in place; the third must be empty.
@@ -149,11 +151,6 @@ impl<R: Real> Piece<R> {
         }
         self.area = self.first.area + self.second.area + self.third.area;
     }
-    /// Becomes another in some lanes.
-    #[inline(always)]
-    pub(in crate::light) fn replace(&mut self, lanes: R::Mask, other: &Self) {
-        *self = if lanes.all() { *other } else { Self::blend(lanes, *other, *self) };
-    }
 
     /// The sector that has the area `swept` before it and `left` after it, and the share of the sector before the azimuth,
     /// counted from its apex: each from the nearer end, where the azimuth is a root of the area.
@@ -161,14 +158,10 @@ impl<R: Real> Piece<R> {
     pub(in crate::light) fn choose(&self, swept: R, left: R) -> (Sector<R>, R) {
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let later = swept.ge(self.first.area) & self.second.area.gt(zero);
-        let mut sector = Sector::blend(later, self.second, self.first);
-        let mut part = R::blend(later, left - self.third.area, swept);
-        if self.third.area.gt(zero).any() {
-            let before = self.first.area + self.second.area;
-            let last = swept.ge(before) & self.third.area.gt(zero);
-            sector = Sector::blend(last, self.third, sector);
-            part = R::blend(last, swept - before, part);
-        }
+        let two = (Sector::blend(later, self.second, self.first), R::blend(later, left - self.third.area, swept));
+        let before = self.first.area + self.second.area;
+        let last = swept.ge(before) & self.third.area.gt(zero);
+        let (sector, part) = R::where_any(last, two, || (self.third, swept - before));
         let share = ratio(part, sector.area).clamped(zero, one);
         (sector, share)
     }

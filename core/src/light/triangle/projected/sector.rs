@@ -4,7 +4,7 @@
 use crate::lanewise::lanewise;
 use crate::light::direction::above_horizon;
 use crate::math::{ratio, rsqrt};
-use crate::real::{Mask, Real, unit_interval};
+use crate::real::{Real, unit_interval};
 use crate::vector::{Vec2, Vec3};
 
 /// Angle beside a sector within which a direction counts as on its border: the rounding of two directions.
@@ -127,37 +127,22 @@ impl<R: Real> Sector<R> {
         let tangent_inner = near * inner.mul_add(x, rise);
         let limit = steep * inner * x;
         let small = y.le(near * x) & (outer * y).le(tangent_inner) & rise.lt(limit) & (sin * y).lt(limit);
-        let mut sector = Self {
-            apex,
-            tangent,
-            height,
-            slope,
-            outer,
-            inner,
-            gap,
-            fold: sin,
-            near: zero,
-            wide: zero,
-            power: R::lit(2.0),
-            area: zero,
-        };
-        let (mut swept, mut end) = (Swept { area: zero, density: zero }, zero);
-        if small.any() {
-            sector.near = (y / R::blend(small, x, one)).keep(small);
-            swept = sector.by_tangent(&sector.narrow(), sector.near);
-            end = sector.near;
-        }
-        if !small.all() {
-            sector.wide = y.atan2(x).keep(!small);
-            let (s, c) = (sector.wide * R::lit(INV_TWO_PI)).sin_cos_turns();
-            let other = sector.by_angle(sector.wide, s, c);
-            swept.area = R::blend(small, swept.area, other.area);
-            swept.density = R::blend(small, swept.density, other.density);
-            end = R::blend(small, end, sector.wide);
-        }
-        let area = swept.area.greater(zero);
+        let mut sector = Self { apex, tangent, height, slope, outer, inner, gap, fold: sin, ..Self::default() };
+        let [near, area, density] = R::where_any(small, [zero; 3], || {
+            let near = y / R::blend(small, x, one);
+            let swept = sector.by_tangent(&Self { near, ..sector }.narrow(), near);
+            [near, swept.area, swept.density]
+        });
+        let [wide, area, density] = R::where_any(!small, [zero, area, density], || {
+            let wide = y.atan2(x);
+            let (s, c) = (wide * R::lit(INV_TWO_PI)).sin_cos_turns();
+            let swept = sector.by_angle(wide, s, c);
+            [wide, swept.area, swept.density]
+        });
+        (sector.near, sector.wide) = (near, wide);
+        let area = area.greater(zero);
         sector.area = half * outer * area;
-        let power = ratio(end * swept.density, area);
+        let power = ratio(R::blend(small, near, wide) * density, area);
         sector.power = power.clamped(R::lit(0.25), R::lit(4.0));
         sector
     }
@@ -251,16 +236,11 @@ impl<R: Real> Sector<R> {
             ([x, theta, low, high], going)
         };
         let [x, theta, ..] = R::iterate(24, [x, theta, zero, self.wide], going, step);
-        let (mut s, mut c) = (zero, one);
-        if small.any() {
-            c = one / x.mul_add(x, one).sqrt();
-            s = x * c;
-        }
-        if !small.all() {
-            let (sin, cos) = (theta * R::lit(INV_TWO_PI)).sin_cos_turns();
-            (s, c) = (R::blend(small, s, sin), R::blend(small, c, cos));
-        }
-        [s, c]
+        let tangent = R::where_any(small, [zero, one], || {
+            let c = one / x.mul_add(x, one).sqrt();
+            [x * c, c]
+        });
+        R::where_any(!small, tangent, || (theta * R::lit(INV_TWO_PI)).sin_cos_turns().into())
     }
 
     /// A step of Newton's method in x², which is nearly proportional to the area.
@@ -366,27 +346,21 @@ impl<R: Real> Sector<R> {
         let y = y.greater(way * self.outer.lesser(self.inner));
         let y = R::blend(self.slope.ge(zero), y.lesser(way * self.outer), y);
         let about = self.inner.le(zero);
-        let (y, x) = if about.any() {
+        let [y, x] = R::where_any(about, [y, x], || {
             let [sin, cos] = self.azimuth_about_zenith(normal, w);
-            (R::blend(about, sin.greater(zero), y), R::blend(about, cos, x))
-        } else {
-            (y, x)
-        };
+            [sin.greater(zero), cos]
+        });
         let small = self.near.gt(zero);
-        let (mut s, mut c, mut area) = (zero, one, zero);
-        if small.any() {
+        let tangent = R::where_any(small, [zero, one, zero], || {
             let tan = ratio(y, x).lesser(self.near);
-            area = self.by_tangent(&self.narrow(), tan).area;
-            c = one / tan.mul_add(tan, one).sqrt();
-            s = tan * c;
-        }
-        if !small.all() {
+            let c = one / tan.mul_add(tan, one).sqrt();
+            [tan * c, c, self.by_tangent(&self.narrow(), tan).area]
+        });
+        let [s, c, area] = R::where_any(!small, tangent, || {
             let theta = y.atan2(x).lesser(self.wide);
-            let (sin, cos) = (theta * R::lit(INV_TWO_PI)).sin_cos_turns();
-            let other = self.by_angle(theta, sin, cos).area;
-            area = R::blend(small, area, other);
-            (s, c) = (R::blend(small, s, sin), R::blend(small, c, cos));
-        }
+            let (s, c) = (theta * R::lit(INV_TWO_PI)).sin_cos_turns();
+            [s, c, self.by_angle(theta, s, c).area]
+        });
         Vec2 {
             x: unit_interval(ratio(area * self.outer * R::lit(0.5), self.area)),
             y: self.outwards(normal, [s, c], w),

@@ -136,16 +136,12 @@ impl<R: Real> Slice<R> {
     #[inline(always)]
     fn sectors(&self, normal: Vec3<R>, backwards: [bool; 2]) -> [Sector<R>; 2] {
         let [up, _] = self.up;
-        let mut first = self.under_edge(normal, backwards[0]);
-        let mut second = Sector::default();
-        if !up.all() {
-            first = Sector::blend(up, first, self.under_horizon(normal, backwards[0]));
-        }
-        if self.cut.any() {
+        let edge = self.under_edge(normal, backwards[0]);
+        let first = R::where_any(!up, edge, || self.under_horizon(normal, backwards[0]));
+        let second = R::where_any(self.cut, Sector::default(), || {
             let [edge, level] = [self.under_edge(normal, backwards[1]), self.under_horizon(normal, backwards[1])];
-            second = Sector::blend(up, level, edge);
-            second.area = second.area.keep(self.cut);
-        }
+            Sector::blend(up, level, edge)
+        });
         [first, second]
     }
 }
@@ -208,14 +204,13 @@ impl<R: Real> Search<R> {
     pub(in crate::light) fn look(mut self, piece: &Piece<R>, normal: Vec3<R>, w: Vec3<R>, edge: R) -> Self {
         for (i, sector) in piece.sectors().into_iter().enumerate() {
             let some = sector.area.gt(edge);
-            if some.any() {
+            (self.found, self.miss) = R::where_any(some, (self.found, self.miss), || {
                 let miss = sector.miss(normal, w);
                 // a direction on the border belongs to the sector before
-                let here = some & (miss + border()).lt(self.miss);
+                let here = (miss + border()).lt(self.miss);
                 let found = FoundSector::new(*sector, self.sum, R::Mask::splat(i == 1));
-                self.found = FoundSector::blend(here, found, self.found);
-                self.miss = R::blend(here, miss, self.miss);
-            }
+                (FoundSector::blend(here, found, self.found), R::blend(here, miss, self.miss))
+            });
             self.sum += sector.area;
         }
         self

@@ -4,7 +4,7 @@
 use super::{Planes, SphericalTriangle};
 use crate::light::surface::SURFACE_SLACK;
 use crate::math::rsqrt;
-use crate::real::{Mask, Real};
+use crate::real::{Real, blended};
 use crate::vector::{Vec2, Vec3};
 
 /// Square of the length below which the cross product of two vertices counts as 0.
@@ -84,6 +84,7 @@ impl<R: Real> Side<R> {
 }
 
 /// What v2 adds to the side from v0 to v1.
+#[derive(Clone, Copy)]
 struct Opposite<R> {
     /// T = 1 + d₀₁ + d₀₂ + d₁₂
     total: R,
@@ -95,6 +96,7 @@ struct Opposite<R> {
     /// 1 − d₀₂²
     sin02_squared: R,
 }
+blended!(Opposite { total, x2, y2, one_plus_d02, one_plus_d12, sin02_squared });
 
 impl<R: Real> Opposite<R> {
     #[inline(always)]
@@ -113,7 +115,7 @@ impl<R: Real> Opposite<R> {
     }
     /// The same where a side of more than 120° needs sums of nearly opposite unit vectors.
     #[inline(always)]
-    fn widen(&mut self, wide: R::Mask, corners: &Corners<R>, side: &Side<R>, planes: &Planes<R>) {
+    fn widen(&mut self, corners: &Corners<R>, side: &Side<R>, planes: &Planes<R>) {
         let ([v0, v1, v2], [i0, i1, i2]) = (corners.v, corners.inverse);
         let &Corners { d01, d02, d12, .. } = corners;
         let &Planes { n01, n02, n12, .. } = planes;
@@ -123,13 +125,12 @@ impl<R: Real> Opposite<R> {
         let s12 = sum_of_units([v1, v2], [i1, i2], n12);
         // T at the vertex to which the others are least opposite
         let (at0, at1, at2) = (s01.dot(s02), s01.dot(s12), s02.dot(s12));
-        let total = R::blend(d01.gt(d02.greater(d12)), at2, R::blend(d02.gt(d12), at1, at0));
-        self.total = R::blend(wide, total, self.total);
-        self.x2 = R::blend(wide, -(n01.dot(n12) * side.inverse * i1 * i2), self.x2);
+        self.total = R::blend(d01.gt(d02.greater(d12)), at2, R::blend(d02.gt(d12), at1, at0));
+        self.x2 = -(n01.dot(n12) * side.inverse * i1 * i2);
         let behind = self.x2.mul_add(self.x2, self.y2 * self.y2) / (one + d12.abs());
-        self.one_plus_d12 = R::blend(wide & d12.lt(zero), behind, self.one_plus_d12);
+        self.one_plus_d12 = R::blend(d12.lt(zero), behind, self.one_plus_d12);
         let behind = self.sin02_squared / (one + d02.abs());
-        self.one_plus_d02 = R::blend(wide & d02.lt(zero), behind, self.one_plus_d02);
+        self.one_plus_d02 = R::blend(d02.lt(zero), behind, self.one_plus_d02);
     }
 }
 
@@ -240,15 +241,15 @@ impl<R: Real> SphericalTriangle<R> {
         let along = corners.apex.cross(pole);
         let mut opposite = Opposite::new(&corners, &side, &planes, along);
         let far = corners.inverse[2].gt(corners.inverse[1] * R::lit(FAR));
-        if far.any() {
-            opposite.x2 = R::blend(far, along.dot(corners.v[2]) * corners.inverse[2], opposite.x2);
-        }
+        opposite.x2 = R::where_any(far, opposite.x2, || along.dot(corners.v[2]) * corners.inverse[2]);
         // a side of more than 120° is rare: do the extra work only where there is one
         let wide = corners.d01.lesser(corners.d02).lesser(corners.d12).lt(R::lit(-0.5));
-        if wide.any() {
-            planes.n12 = Vec3::blend(wide, exact(), planes.n12);
-            opposite.widen(wide, &corners, &side, &planes);
-        }
+        (planes.n12, opposite) = R::where_any(wide, (planes.n12, opposite), || {
+            let n12 = exact();
+            let mut opposite = opposite;
+            opposite.widen(&corners, &side, &Planes { n12, ..planes });
+            (n12, opposite)
+        });
         let [i0, i1, i2] = corners.inverse;
         let g0 = planes.volume.abs() * i0 * i1 * i2;
         let (cot_alpha, angle) = cot_alpha(&corners, &planes);
