@@ -31,7 +31,6 @@ fn bad_values_are_named_with_their_option() {
         ("chart", "--spp", "-1", "from 1 to 4194304"),
         ("chart", "--replicates", "-1", "from 1 to 10000"),
         ("chart", "--time-limit", "-1", "from 0 to"),
-        ("chart", "--reference-error", "-1", "at least 0"),
         ("render", "--threads", "-1", "0 for one thread per core"),
     ] {
         let error = folder.fail(&[command, "quads", option, value]);
