@@ -133,15 +133,6 @@ fn faults_are_reported() {
         let error = folder.fail(&arguments.split(' ').collect::<Vec<_>>());
         assert!(words.iter().all(|w| error.contains(w)), "{arguments}: {error}");
     };
-    says("chart none.pbrt", &["none.pbrt"]);
-    says("chart quads --spp 0", &["--spp", "0"]);
-    says("chart quads --techniques luck", &["luck"]);
-    says("chart quads --spp 3 --samplers adaptive", &["nothing to measure", "adaptive"]);
-    // hemisphere sampling does not apply to rough metals
-    says(
-        "chart plates --techniques uniform-hemisphere --reference-spp 32 --size 8x8",
-        &["nothing to measure", "rough"],
-    );
     fs::create_dir(folder.0.join("out")).unwrap();
     fs::write(folder.0.join("out/measurements.csv"), "a,b\n1,2\n").unwrap();
     says(&format!("{SMALL} -o out"), &["measurements.csv", "line 1"]);
