@@ -79,12 +79,6 @@ fn rare_light_has_no_bias() {
     rare_means_are_right(cases(3, 24), &[16, 64], 60);
 }
 
-#[test]
-#[ignore = "100 scenes by 300 seeds by three numbers of samples: ten minutes on two cores"]
-fn rare_light_has_no_bias_at_length() {
-    rare_means_are_right(100, &[16, 64, 256], 300);
-}
-
 /// What several images of each scene claim with these numbers of samples per pixel, all together, and how the table of that reads. At least
 /// this share of the rows that are sure must be within 0.8 to 1.25 times the error, and none beyond twice or half of it.
 fn claims_table<const N: usize>(all: &[(String, Scene)], [side, images]: [u32; 2], numbers: [u32; N], least: f64) {

@@ -98,7 +98,7 @@ fn mean(world: &World, technique: Technique, spp: u32) -> f64 {
 #[test]
 fn lamps_in_the_same_place_have_one_order() {
     let (all, whole) = ([-1.0, 1.0], |slope| Lamp::new([-1.0, 1.0], [-1.0, 1.0], slope, 1.0));
-    for slope in [0.0, 0.37] {
+    for slope in [0.37, 0.0].into_iter().take(cases(1, 2)) {
         let bright = |x, y| Lamp { radiance: 2.0, ..Lamp::new(x, y, slope, 1.0) };
         let raised = 2.0 + 2.0 / 8_388_608.0;
         for (name, a, b) in [

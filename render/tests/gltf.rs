@@ -1,7 +1,7 @@
 //! Tests of the glTF reader: geometry and nodes. `materials` and `views` have the rest of what files describe, `faulty` has faulty files, and `asset`
 //! makes files.
 
-mod asset;
+pub(crate) mod asset;
 mod faulty;
 mod listed;
 mod materials;

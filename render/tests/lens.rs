@@ -1,9 +1,7 @@
-//! The thin lens: geometry of its rays, and images of defocused edges compared with their closed form.
+//! The thin lens: images of defocused edges compared with their closed form.
 
 use crate::kit::{film, read};
-use etendue::sequence::{Independent, Sequence};
-use etendue::warp::ConcentricDisk;
-use etendue::{Real, Vec2, Warp, f32x8, u32x8};
+use etendue::{Real, Vec2, f32x8};
 use etendue_oracle::tier::is_long;
 use etendue_render::camera::{Camera, CameraSample};
 use etendue_render::film::compare::Comparison;
@@ -24,64 +22,6 @@ fn agrees(reference: &Picture, image: &Picture) -> bool {
     let p = Comparison::new(reference, image, 0.0).unwrap().predicted.unwrap();
     println!("{p:?}");
     p.agrees()
-}
-
-/// Rays from one point of the film meet the plane of focus in the same point as the ray through the lens's centre, and leave uniformly
-/// from a disk.
-#[test]
-fn rays_meet_in_the_plane_of_focus() {
-    for (radius, focus, scale) in
-        [(0.1, 3.0, 1.0), (5.0, 0.5, 1.0), (1e-3, 1e6, 1.0), (0.02, 0.4, 1e-4), (0.3, 2.0, 512.0)]
-    {
-        let scene = read(&format!(
-            "Scale {s} {s} {s} LookAt 1 2 3 0.5 0.25 -1 0 1 0\n\
-             Camera \"perspective\" \"float fov\" 50 \"float lensradius\" {radius} \"float focaldistance\" {focus} WorldBegin",
-            s = 1.0 / scale
-        ));
-        let camera = &scene.camera;
-        let (width, height) = (64, 48);
-        let Camera::ThinLens(lens) = Camera::new(camera, width, height) else { panic!("no lens") };
-        let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
-        let [_, tx, _, ty] = camera.edges(width, height);
-        let mut moments = [0.0; 5];
-        let packets = 2000;
-        for i in 0..packets {
-            let u = |d| -> Vec2<f32x8> {
-                Independent::new(3).pair(u32x8::splat(i), u32x8::from([0, 1, 2, 3, 4, 5, 6, 7]), d)
-            };
-            let (film, u) = (u(0), u(1));
-            let place = [film.x * f32x8::splat(width as f32), film.y * f32x8::splat(height as f32)];
-            let (origin, direction) = lens.ray(place[0], place[1], ConcentricDisk.sample(u));
-            for k in 0..8 {
-                let lane = |v: etendue::Vec3<f32x8>| <[f32; 3]>::from(v.lane(k)).map(f64::from);
-                let (o, d) = (lane(origin), lane(direction));
-                assert!((dot(d, d) - 1.0).abs() < 1e-6);
-                let off: [f64; 3] = std::array::from_fn(|k| o[k] - camera.origin[k]);
-                let [x, y, z] = [camera.right, camera.up, camera.forward].map(|axis| dot(off, axis) / scale / radius);
-                // rounding of a point far from the origin of the scene
-                let rounding = 1e-6 * (1.0 + 4.0 / (scale * radius));
-                assert!(x.hypot(y) < 1.0 + rounding && z.abs() < rounding, "{x} {y} {z}");
-                for (sum, m) in moments.iter_mut().zip([x, y, x * x, y * y, x * y]) {
-                    *sum += m / f64::from(8 * packets);
-                }
-                // the hit point on the plane of focus, in units of its distance
-                let along = dot(d, camera.forward);
-                let film = [film.x, film.y].map(|f| f64::from(f.lane(k)));
-                let wanted = [(2.0 * film[0] - 1.0) * tx, (1.0 - 2.0 * film[1]) * ty];
-                for (axis, (lens, wanted)) in [camera.right, camera.up].into_iter().zip([x, y].into_iter().zip(wanted))
-                {
-                    let met = lens * radius / focus + dot(d, axis) / along;
-                    // the error of a direction is 1e−7 over its squared cosine
-                    let error = 3e-7 / (along * along) + rounding * radius / focus;
-                    assert!((met - wanted).abs() < error, "{met} {wanted}, tolerance {error:e}");
-                }
-            }
-        }
-        // moments of the unit disk: 0, 0, ¼, ¼, 0, with variances of at most ¼, over 16,000 points
-        for (m, truth) in moments.into_iter().zip([0.0, 0.0, 0.25, 0.25, 0.0]) {
-            assert!((m - truth).abs() < 5.0 * 0.5 / 126.0, "{moments:?}");
-        }
-    }
 }
 
 /// A tile far from the corner of a wide image counts positions from a pixel nearby, from which the rays are the same.

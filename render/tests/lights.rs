@@ -166,7 +166,7 @@ fn the_pmf_of_all_lights_sums_to_one() {
 #[test]
 fn bounds_are_those_of_the_shapes() {
     let mut kinds = [0; 3];
-    for (name, _) in etendue_scene::builtin() {
+    for (name, _) in etendue_scene::builtin_of_few_lights() {
         let scene = etendue_scene::load(name).unwrap();
         let shapes = scene.shapes.iter().filter(|shape| shape.emission.is_some());
         let bounds = Lights::bounds(&scene);

@@ -1,12 +1,8 @@
-//! Flat lights and spot lights with profiles: factors and powers by their definitions, summed in double precision.
+//! Flat lights with profiles: factors and powers by their definitions, summed in double precision.
 
 use crate::intensity::IntensityTable;
-use etendue::{SpotLight, Vec3};
-use etendue_judge::generators::Random;
-use etendue_judge::packets::Coordinates;
-use etendue_oracle::tier::cases;
 use etendue_oracle::{V3, along, basis, unit};
-use etendue_render::packet::{V8, X8};
+use etendue_render::packet::X8;
 use etendue_render::scene::intensity::Intensity;
 use etendue_render::scene::light_profile::LuminousOpening;
 use std::f64::consts::{PI, TAU};
@@ -75,60 +71,4 @@ fn openings_keep_the_power() {
     }
     // a beam that is behind, and what shines upwards alone
     assert_eq!(dark, 2);
-}
-
-/// From far away an opening is the luminaire that was measured: its radiance times the area that is seen is the intensity, but for the last
-/// degrees next to its plane, where that falls in proportion to the cosine.
-#[test]
-fn openings_have_the_intensities_of_their_table() {
-    let mut random = Random::new(3);
-    let table = &tables()[0];
-    let intensity = Intensity::Angles(table.profile());
-    let opening = LuminousOpening::new([0.0, 0.0, 1.0], false, &intensity).unwrap();
-    let of = |directions: &[V3]| {
-        let w: V8 = Coordinates::gather(directions);
-        (opening.factor(w.z, intensity.at(w)) * w.z.abs()).to_array().map(f64::from)
-    };
-    let scale = of(&[[0.0, 0.0, 1.0]])[0] / table.towards([0.0, 0.0, 1.0]);
-    for _ in 0..cases(1000, 100_000) / 8 {
-        let directions = [(); 8].map(|()| random.direction());
-        for (w, found) in directions.into_iter().zip(of(&directions)) {
-            let wanted = table.towards(w) * (w[2].abs() / least()).min(1.0);
-            assert!((found / scale - wanted).abs() < 1e-5 * wanted.max(0.1), "{w:?}: {found} for {wanted}");
-        }
-    }
-}
-
-/// The power of a spot light with a profile is that of its falloff and its intensity together.
-#[test]
-fn spot_lights_take_profiles() {
-    let mut random = Random::new(5);
-    for (kind, table) in tables().iter().enumerate() {
-        let intensity = Intensity::Angles(table.profile());
-        for (inner, outer) in [(10.0_f64, 30.0_f64), (0.0, 5.0), (40.0, 40.0), (70.0, 150.0)] {
-            let axis = if kind == 1 { [0.0, 0.0, 1.0] } else { random.direction() };
-            let [cos_inner, cos_outer] = [inner, outer].map(|degrees| degrees.to_radians().cos());
-            let light = SpotLight {
-                position: Vec3::<f64>::from([1.0, 2.0, 3.0]),
-                axis: axis.into(),
-                one_minus_cos_inner: 1.0 - cos_inner,
-                one_minus_cos_outer: 1.0 - cos_outer,
-            };
-            let falloff = |cos: f64| {
-                if inner == outer {
-                    return f64::from(u8::from(cos >= cos_inner));
-                }
-                let t = ((cos - cos_outer) / (cos_inner - cos_outer)).clamp(0.0, 1.0);
-                t * t * (3.0 - 2.0 * t)
-            };
-            let wanted = sum(axis, outer, |w, cos| table.towards(w) * falloff(cos));
-            let most =
-                sum(axis, outer, |_, cos| falloff(cos)) * table.values.iter().fold(0.0, |m: f32, x| m.max(*x)) as f64;
-            let power = intensity.flux_of_spot(&light.map(|x| x as f32));
-            assert!(
-                (power - wanted).abs() <= 1e-3 * wanted.max(0.01 * most),
-                "{kind} {inner} {outer}: {power} for {wanted}"
-            );
-        }
-    }
 }

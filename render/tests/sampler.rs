@@ -1,6 +1,6 @@
 //! The random numbers that samplers generate for the pixel, the light and the lens.
 
-use etendue::{Mask, Real, u32x8};
+use etendue::{Mask, Real, Vec2, u32x8};
 use etendue_oracle::tier::cases;
 use etendue_render::Sampler;
 use etendue_render::film::compare::differs;
@@ -10,6 +10,18 @@ use std::collections::HashMap;
 
 type M8 = <X8 as Real>::Mask;
 
+/// Eight samples of a pixel, each of which is in a set.
+fn packet([x, y]: [u32; 2], sample: u32x8, set: u32x8) -> Packet {
+    Packet { x: u32x8::splat(x), y: u32x8::splat(y), sample, set, active: M8::splat(true) }
+}
+
+/// The bits of the first numbers of eight pairs.
+fn bits(pairs: Vec2<X8>) -> Vec<u32> {
+    (0..8).map(|k| pairs.lane(k).x.to_bits()).collect()
+}
+
+const LANES: [u32; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
+
 /// Film, light and lens numbers of every sample of one pixel, in order.
 fn points(sampler: Sampler, spp: u32, pixel: [u32; 2], seed: u64) -> (Vec<[f64; 6]>, u32) {
     let source = NumberSource::new(sampler, seed, [spp, 0], 256, true);
@@ -17,14 +29,8 @@ fn points(sampler: Sampler, spp: u32, pixel: [u32; 2], seed: u64) -> (Vec<[f64; 
     let mut all = Vec::new();
     for start in (0..spp).step_by(8) {
         let sample = |k: u32| (start + k).min(spp - 1);
-        let lanes = [0, 1, 2, 3, 4, 5, 6, 7].map(sample);
-        let packet = Packet {
-            x: u32x8::splat(pixel[0]),
-            y: u32x8::splat(pixel[1]),
-            sample: u32x8::from(lanes),
-            set: u32x8::from(lanes.map(set)),
-            active: M8::splat(true),
-        };
+        let lanes = LANES.map(sample);
+        let packet = packet(pixel, u32x8::from(lanes), u32x8::from(lanes.map(set)));
         let pairs = [FILM, LIGHT, LENS].map(|dimension| source.pair(&packet, dimension));
         let [film, light] = source.film_and_light(&packet);
         assert_eq!([film, light], [pairs[0], pairs[1]], "{sampler:?}");
@@ -124,9 +130,7 @@ fn sets_are_independent() {
 fn the_choice_of_a_light_has_numbers_of_its_own() {
     for sampler in [Sampler::Independent, Sampler::Sobol, Sampler::Sobol4d, Sampler::ZOrder] {
         let source = NumberSource::new(sampler, 1, [64, 0], 8, true);
-        let zero = u32x8::splat(0);
-        let sample = u32x8::from([0, 1, 2, 3, 4, 5, 6, 7]);
-        let packet = Packet { x: zero, y: zero, sample, set: zero, active: M8::splat(true) };
+        let packet = packet([0; 2], u32x8::from(LANES), u32x8::splat(0));
         let all = [FILM, LIGHT, CHOICE, LENS, 4, 5, 9].map(|dimension| source.pair(&packet, dimension));
         for (i, a) in all.iter().enumerate() {
             assert!(all[..i].iter().all(|b| a != b), "{sampler:?}");
@@ -141,14 +145,10 @@ fn each_set_has_numbers_of_its_own() {
         let source = NumberSource::new(sampler, 5, [64, 4], 16, true);
         let mut seen = HashMap::new();
         for pixel in (0..256).map(|i| [i % 16, i / 16]) {
-            for first in (0..64).step_by(8) {
-                let sample = u32x8::from([0, 1, 2, 3, 4, 5, 6, 7]) + u32x8::splat(first);
+            for first in (0..64_u32).step_by(8) {
                 let set = u32x8::splat(first.checked_div(source.set_size()).unwrap_or(0));
-                let (x, y) = (u32x8::splat(pixel[0]), u32x8::splat(pixel[1]));
-                let packet = Packet { x, y, sample, set, active: M8::splat(true) };
-                let pair = source.pair(&packet, LIGHT);
-                let numbers: Vec<u32> = (0..8).map(|k| pair.lane(k).x.to_bits()).collect();
-                let other = seen.insert(numbers, (pixel, first));
+                let packet = packet(pixel, u32x8::from(LANES) + u32x8::splat(first), set);
+                let other = seen.insert(bits(source.pair(&packet, LIGHT)), (pixel, first));
                 assert_eq!(other, None, "{sampler:?}: the numbers of {:?}", (pixel, first));
             }
         }
@@ -160,22 +160,15 @@ fn each_set_has_numbers_of_its_own() {
 fn each_light_has_numbers_of_its_own() {
     let source = NumberSource::new(Sampler::Sobol, 3, [64, 4], 256, true);
     assert!(source.allocates());
-    let lanes = u32x8::from([0, 1, 2, 3, 4, 5, 6, 7]);
+    let lanes = u32x8::from(LANES);
     let mut seen = HashMap::new();
     for pixel in (0..64).map(|i| [i % 8 * 36, i / 8]).chain([[1, 0], [255, 255]]) {
         for set in 0..4 {
-            let packet = Packet {
-                x: u32x8::splat(pixel[0]),
-                y: u32x8::splat(pixel[1]),
-                sample: lanes + u32x8::splat(set * source.set_size()),
-                set: u32x8::splat(set),
-                active: M8::splat(true),
-            };
+            let packet = packet(pixel, lanes + u32x8::splat(set * source.set_size()), u32x8::splat(set));
             for light in 0..5 {
                 let [film, pair] = source.film_and_light_of(&packet, u32x8::splat(light), lanes);
                 assert_eq!(film, source.pair(&packet, FILM));
-                let numbers: Vec<u32> = (0..8).map(|k| pair.lane(k).x.to_bits()).collect();
-                let other = seen.insert(numbers, (pixel, set, light));
+                let other = seen.insert(bits(pair), (pixel, set, light));
                 assert_eq!(other, None, "the numbers of {:?}", (pixel, set, light));
             }
         }

@@ -102,7 +102,6 @@ fn keys(scenes: &[Loaded], spps: &[u32], samplers: &[Sampler]) -> (Vec<Key>, Vec
 /// Fails if a scene or reference cannot be read, or the table cannot be written.
 pub fn measure(options: &Options, stop: &Arc<AtomicBool>) -> Result<Outcome, Box<dyn Error>> {
     let start = Instant::now();
-    options.check()?;
     let pool = crate::options::pool(options.threads)?;
     let facts = machine::facts(pool.current_num_threads());
     let mut scenes = pool.install(|| load(options).map_err(|e| e.to_string()))?;

@@ -355,7 +355,7 @@ fn judges_notice_a_light() {
     for seed in 0..6 {
         let draft = named("skies").draft(seed);
         let mut trial = Trial::read(&draft, 16).unwrap();
-        if trial.alone.len() < 2 {
+        if trial.alone.len() < 2 || seen == etendue_oracle::tier::cases(3, 6) {
             continue;
         }
         seen += 1;

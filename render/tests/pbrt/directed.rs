@@ -98,11 +98,9 @@ fn damaged_files_are_errors() {
     // only the line's end is not needed
     assert!((0..whole.len()).all(|end| end + 2 > whole.len() || !judge(&whole[..end])));
     let words = ["0", "-1", " 90", "1e-9 ", "1e300", "nan", "-0", "4294967296", "x", " 180 ", "0.5", " 2 "];
-    let mut read = 0;
-    damaged(whole.as_bytes(), &words, etendue_oracle::tier::cases(3000, 300_000), |bytes| {
-        read += u32::from(judge(&String::from_utf8_lossy(bytes)));
-    });
-    assert!(read > 100, "{read}");
+    let (mut read, copies) = (0, etendue_oracle::tier::cases(1000, 300_000));
+    damaged(whole.as_bytes(), &words, copies, |bytes| read += usize::from(judge(&String::from_utf8_lossy(bytes))));
+    assert!(read > copies / 30, "{read}");
     // once mirrored, these are the same
     let close = file(NEW, 1, "0 90", "0 1e-9 90", "8 0 8 2 1 2");
     folder.write("a.ies", close);

@@ -2,7 +2,7 @@
 
 use super::place::{NamedTransform, similar};
 use super::row::{Row, Text, grey, reflected, times};
-use base64::Engine;
+use crate::gltf::asset::Asset;
 use etendue_oracle::{V3, along, basis, dot, length, sub, unit};
 use serde_json::{Value, json};
 
@@ -10,36 +10,31 @@ use serde_json::{Value, json};
 pub(super) const FLOOR: [[f32; 3]; 4] =
     [[500.0, 0.0, -500.0], [-500.0, 0.0, -500.0], [-500.0, 0.0, 500.0], [500.0, 0.0, 500.0]];
 
-/// A file with these cameras, lights and nodes; mesh 0 is a floor in the plane y = 0, mesh 1 a square of half side 1 that faces +z.
-pub(super) fn file(camera: Value, lights: Value, nodes: Vec<Value>, emissive: Value) -> String {
+/// A file with this camera, these lights and these nodes; mesh 0 is a floor in the plane y = 0, mesh 1 a square of half side 1 that faces +z.
+pub(super) fn file(camera: Value, lights: Value, nodes: Vec<Value>, emissive: Value) -> Asset {
+    let mut asset = Asset::new();
     let square = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
-    let points = [FLOOR, square].concat();
-    let mut bytes: Vec<u8> = points.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
-    bytes.extend([0_u32, 1, 2, 0, 2, 3].iter().flat_map(|i| i.to_le_bytes()));
-    let view = |at: usize, length: usize| json!({"buffer": 0, "byteOffset": at, "byteLength": length});
-    let accessor = |view: usize, kind: u32, count: usize, name: &str| json!({"bufferView": view, "componentType": kind, "count": count, "type": name});
-    let mesh = |positions: usize, material: usize| json!({"primitives": [{"attributes": {"POSITION": positions}, "indices": 2, "material": material}]});
-    let uri =
-        format!("data:application/octet-stream;base64,{}", base64::engine::general_purpose::STANDARD.encode(&bytes));
+    let positions = [asset.floats(&FLOOR), asset.floats(&square)];
+    let indices = asset.indices(&[0, 1, 2, 0, 2, 3]);
+    for (material, positions) in positions.into_iter().enumerate() {
+        let primitive = json!({"attributes": {"POSITION": positions}, "indices": indices, "material": material});
+        asset.add("meshes", json!({"primitives": [primitive]}));
+    }
     let matt = json!({"baseColorFactor": [0.5, 0.5, 0.5, 1], "metallicFactor": 0, "roughnessFactor": 1});
-    json!({
-        "asset": {"version": "2.0"},
-        "scene": 0,
-        "scenes": [{"nodes": (0..nodes.len()).filter(|k| nodes[*k]["is child"].is_null()).collect::<Vec<_>>()}],
-        "nodes": nodes.into_iter().map(|mut node| { node.as_object_mut().unwrap().remove("is child"); node }).collect::<Vec<_>>(),
-        "cameras": [camera],
-        "meshes": [mesh(0, 0), mesh(1, 1)],
-        "materials": [
-            {"pbrMetallicRoughness": matt, "extensions": {"KHR_materials_specular": {"specularFactor": 0}}},
-            emissive,
-        ],
-        "accessors": [accessor(0, 5126, 4, "VEC3"), accessor(1, 5126, 4, "VEC3"), accessor(2, 5125, 6, "SCALAR")],
-        "bufferViews": [view(0, 48), view(48, 48), view(96, 24)],
-        "buffers": [{"byteLength": bytes.len(), "uri": uri}],
-        "extensionsUsed": ["KHR_lights_punctual", "KHR_materials_specular", "KHR_materials_emissive_strength"],
-        "extensions": {"KHR_lights_punctual": {"lights": lights}},
-    })
-    .to_string()
+    let dull = json!({"KHR_materials_specular": {"specularFactor": 0}});
+    asset.add("materials", json!({"pbrMetallicRoughness": matt, "extensions": dull}));
+    asset.add("materials", emissive);
+    asset.add("cameras", camera);
+    let roots: Vec<_> = (0..nodes.len()).filter(|k| nodes[*k]["is child"].is_null()).collect();
+    asset.add("scenes", json!({"nodes": roots}));
+    for mut node in nodes {
+        node.as_object_mut().unwrap().remove("is child");
+        asset.add("nodes", node);
+    }
+    asset.json["extensionsUsed"] =
+        json!(["KHR_lights_punctual", "KHR_materials_specular", "KHR_materials_emissive_strength"]);
+    asset.json["extensions"] = json!({"KHR_lights_punctual": {"lights": lights}});
+    asset
 }
 
 const NARROW: f64 = 1e-6;
@@ -73,8 +68,8 @@ pub(super) fn looking(eye: V3, target: V3) -> Value {
     json!({"camera": 0, "matrix": aimed(&NamedTransform::new(), eye, unit(sub(target, eye)))})
 }
 
-fn row(name: String, text: String, right: V3) -> Row {
-    Row { text: Text::Gltf(text), ..Row::new(name, String::new(), right) }
+pub(super) fn row(name: String, asset: &Asset, right: V3) -> Row {
+    Row { text: Text::Gltf(asset.text()), ..Row::new(name, String::new(), right) }
 }
 
 pub(super) fn rows() -> Vec<Row> {
@@ -100,9 +95,9 @@ fn speculars() -> Vec<Row> {
         let matrix = aimed(&NamedTransform::new(), [0.0; 3], [1.0, -1.0, 0.0]);
         let node = json!({"matrix": matrix, "extensions": {"KHR_lights_punctual": {"light": 0}}});
         let nodes = vec![json!({"mesh": 0}), looking([0.0, 0.5, 0.0], [0.0; 3]), node];
-        let mut text: Value = serde_json::from_str(&file(narrow(), json!([light]), nodes, json!({}))).unwrap();
+        let mut asset = file(narrow(), json!([light]), nodes, json!({}));
         let surface = json!({"baseColorFactor": [0.5, 0.5, 0.5, 1], "metallicFactor": metallic, "roughnessFactor": 1});
-        text["materials"][0] = json!({"pbrMetallicRoughness": surface, "extensions": {
+        asset.json["materials"][0] = json!({"pbrMetallicRoughness": surface, "extensions": {
             "KHR_materials_specular": {"specularFactor": factor, "specularColorFactor": tint},
             "KHR_materials_ior": {"ior": ior},
         }});
@@ -117,7 +112,7 @@ fn speculars() -> Vec<Row> {
         let diffuse = (1.0 - most) * 0.5 * (1.0 - metallic) * std::f64::consts::FRAC_1_PI;
         let right = reflected.map(|f| lit * diffuse + f * shine);
         let name = format!("KHR_materials_specular {factor} {tint:?}, ior {ior}, metallic {metallic}");
-        rows.push(row(name, text.to_string(), right));
+        rows.push(row(name, &asset, right));
     }
     rows
 }
@@ -139,11 +134,11 @@ fn lights() -> Vec<Row> {
             let at = [0.4, 2.0, -0.3];
             let text = on_floor(described("point"), matrix(&place, at));
             let name = |kind: &str| format!("glTF {kind} {intensity}, {}", place.name);
-            rows.push(row(name("point"), text, reflected(times(strength, lit(at)))));
+            rows.push(row(name("point"), &text, reflected(times(strength, lit(at)))));
             for towards in [[0.0, -1.0, 0.0], [0.5, -0.7, 0.3], [0.2, 0.4, 0.1]] {
                 let text = on_floor(described("directional"), aimed(&place, at, towards));
                 let right = times(strength, (-unit(towards)[1]).max(0.0));
-                rows.push(row(format!("{} {towards:?}", name("directional")), text, reflected(right)));
+                rows.push(row(format!("{} {towards:?}", name("directional")), &text, reflected(right)));
             }
             for (inner, outer) in [(0.0, 0.785), (0.2, 0.4), (0.3, 0.3001)] {
                 for target in [[0.0, 0.0, 0.0], [0.6, 0.0, 0.1], [3.0, 0.0, 0.0]] {
@@ -156,7 +151,7 @@ fn lights() -> Vec<Row> {
                     let text = on_floor(light, aimed(&place, at, axis));
                     let right = times(strength, falloff * lit(at));
                     rows.push(
-                        row(format!("{} {inner} {outer} {target:?}", name("spot")), text, reflected(right))
+                        row(format!("{} {inner} {outer} {target:?}", name("spot")), &text, reflected(right))
                             .within(2e-4),
                     );
                 }
@@ -168,7 +163,7 @@ fn lights() -> Vec<Row> {
     let node = json!({"matrix": aimed(&NamedTransform::new(), [0.0; 3], [1.0, -0.05, 0.0]), "extensions": {"KHR_lights_punctual": {"light": 0}}});
     let nodes = vec![json!({"mesh": 0}), looking(grazing, [0.0; 3]), node];
     let text = file(narrow(), json!([{"type": "directional"}]), nodes, json!({}));
-    rows.push(row("glTF without specular reflection".into(), text, reflected(grey(grazing[1]))));
+    rows.push(row("glTF without specular reflection".into(), &text, reflected(grey(grazing[1]))));
     // a light within a scaled and turned node
     let parent = json!({"translation": [0, 3, 0], "rotation": [-0.5_f64.sqrt(), 0, 0, 0.5_f64.sqrt()], "scale": [2, 2, 2], "children": [3]});
     let child =
@@ -176,11 +171,11 @@ fn lights() -> Vec<Row> {
     for (kind, right) in [("point", 1.0 / 16.0), ("directional", 1.0)] {
         let nodes = vec![json!({"mesh": 0}), looking([0.0, 0.5, 0.0], [0.0; 3]), parent.clone(), child.clone()];
         let text = file(narrow(), json!([{"type": kind}]), nodes, json!({}));
-        rows.push(row(format!("glTF {kind} within a node"), text, reflected(grey(right))));
+        rows.push(row(format!("glTF {kind} within a node"), &text, reflected(grey(right))));
     }
     let mut ranged = row(
         "glTF point of a range".into(),
-        on_floor(json!({"type": "point", "range": 1.5}), matrix(&NamedTransform::new(), [0.0, 2.0, 0.0])),
+        &on_floor(json!({"type": "point", "range": 1.5}), matrix(&NamedTransform::new(), [0.0, 2.0, 0.0])),
         grey(0.0),
     );
     ranged = ranged.differs(reflected(grey(0.25)), "a range is a hint, and no light ends there");
@@ -209,7 +204,7 @@ fn emissive() -> Vec<Row> {
                 let nodes = vec![looking(eye, point), json!({"mesh": 1, "matrix": matrix(&place, at)})];
                 let right = if side > 0.0 || double { radiance } else { grey(0.0) };
                 let name = format!("glTF {material}, {}, side {side}", place.name);
-                rows.push(row(name, file(narrow(), json!([]), nodes, material.clone()), right));
+                rows.push(row(name, &file(narrow(), json!([]), nodes, material.clone()), right));
             }
         }
     }
@@ -233,7 +228,7 @@ fn sides() -> Vec<Row> {
         let is_seen = double || faces_up;
         let right = if is_seen || light_x == 0.0 { 0.0 } else { 5.0 / std::f64::consts::PI * 4.0 / 125.0 };
         let name = format!("doubleSided {double}, the front up {faces_up}, light at {light_x}");
-        rows.push(row(name, file(narrow(), json!([light]), nodes, dark), grey(right)));
+        rows.push(row(name, &file(narrow(), json!([light]), nodes, dark), grey(right)));
     }
     rows
 }
@@ -247,17 +242,17 @@ fn cameras() -> Vec<Row> {
         let node = json!({"camera": 0, "translation": [0, 0, 5], "scale": [3, 3, 3]});
         let nodes = vec![node, json!({"mesh": 1})];
         let text = file(camera(xmag, ymag), json!([]), nodes, json!({"emissiveFactor": [1, 1, 1]}));
-        rows.push(row(format!("glTF orthographic {xmag} {ymag}"), text, grey(share)).samples(1 << 16));
+        rows.push(row(format!("glTF orthographic {xmag} {ymag}"), &text, grey(share)).samples(1 << 16));
     }
     // a tangent of 0.4 of half the angle, at distance 5
     let yfov = 2.0 * 0.4_f64.atan();
     let seen = json!({"type": "perspective", "perspective": {"yfov": yfov, "aspectRatio": 1, "znear": 0.1}});
     let nodes = vec![json!({"camera": 0, "translation": [0, 0, 5]}), json!({"mesh": 1})];
     let text = file(seen, json!([]), nodes, json!({"emissiveFactor": [1, 1, 1]}));
-    rows.push(row("glTF perspective".into(), text, grey(0.25)).samples(1 << 16));
+    rows.push(row("glTF perspective".into(), &text, grey(0.25)).samples(1 << 16));
     // behind the camera
     let nodes = vec![json!({"camera": 0, "translation": [0, 0, -1]}), json!({"mesh": 1})];
     let text = file(camera(1.0, 1.0), json!([]), nodes, json!({"emissiveFactor": [1, 1, 1]}));
-    rows.push(row("glTF orthographic, before what it sees".into(), text, grey(0.0)));
+    rows.push(row("glTF orthographic, before what it sees".into(), &text, grey(0.0)));
     rows
 }

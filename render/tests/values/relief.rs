@@ -1,10 +1,11 @@
 //! Normal maps of one texel: a floor that is seen from above and lit by a point light, by pbrt-v4's and glTF's frames.
 
-use super::gltf::{FLOOR, file, looking, narrow};
-use super::row::{Row, Text, grey, look};
+use super::gltf::{FLOOR, file, looking, narrow, row};
+use super::row::{Row, grey, look};
 use base64::Engine;
 use etendue_oracle::{V3, cross, dot, sub, unit};
-use serde_json::{Value, json};
+use etendue_render::film::image::encode_png;
+use serde_json::json;
 
 /// The bytes of the texel.
 const TEXEL: [u8; 3] = [200, 90, 220];
@@ -71,8 +72,8 @@ fn of_pbrt() -> Vec<Row> {
 }
 
 fn of_gltf() -> Vec<Row> {
-    let engine = base64::engine::general_purpose::STANDARD;
-    let picture = format!("data:image/png;base64,{}", engine.encode(png()));
+    let picture = base64::engine::general_purpose::STANDARD.encode(png());
+    let picture = format!("data:image/png;base64,{picture}");
     let mut rows = Vec::new();
     for (name, frame) in FRAMES {
         for scale in [1.0, -0.5] {
@@ -80,28 +81,19 @@ fn of_gltf() -> Vec<Row> {
             let node = json!({"translation": [LIGHT[0], LIGHT[2], -LIGHT[1]], "extensions": {"KHR_lights_punctual": {"light": 0}}});
             let nodes = vec![json!({"mesh": 0}), looking([0.1, 5.0, -0.2], [0.0; 3]), node];
             let light = json!({"type": "point", "intensity": 10});
-            let mut text: Value = serde_json::from_str(&file(narrow(), json!([light]), nodes, json!({}))).unwrap();
+            let mut asset = file(narrow(), json!([light]), nodes, json!({}));
             let uvs = FLOOR.map(|[x, _, z]| frame.map(|[a, b]| (a * f64::from(x) - b * f64::from(z) + 0.3) as f32));
-            let bytes: Vec<u8> = uvs.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
-            let uri = format!("data:application/octet-stream;base64,{}", engine.encode(&bytes));
-            let mut add = |list: &str, item: Value| match &mut text[list] {
-                Value::Array(items) => items.push(item),
-                none => *none = json!([item]),
-            };
-            add("buffers", json!({"byteLength": bytes.len(), "uri": uri}));
-            add("bufferViews", json!({"buffer": 1, "byteLength": bytes.len()}));
-            add("accessors", json!({"bufferView": 3, "componentType": 5126, "count": 4, "type": "VEC2"}));
-            add("images", json!({"uri": picture}));
-            add("textures", json!({"source": 0}));
-            text["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(3);
-            text["materials"][0]["normalTexture"] = json!({"index": 0, "scale": scale});
+            let uvs = asset.floats(&uvs);
+            asset.add("images", json!({"uri": picture}));
+            asset.add("textures", json!({"source": 0}));
+            asset.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(uvs);
+            asset.json["materials"][0]["normalTexture"] = json!({"index": 0, "scale": scale});
             // the second axis is at right angles to the first, on the side where v falls
             let (up, [along, rising]) = ([0.0, 0.0, 1.0], directions(frame));
             let across = cross(up, along);
             let across = if dot(across, rising) > 0.0 { sub([0.0; 3], across) } else { across };
             let right = grey(reflected(normal(scale, [along, across, up]), LIGHT));
-            let row = Row::new(format!("normalTexture {name}, scale {scale}"), String::new(), right).within(1e-4);
-            rows.push(Row { text: Text::Gltf(text.to_string()), ..row });
+            rows.push(row(format!("normalTexture {name}, scale {scale}"), &asset, right).within(1e-4));
         }
     }
     rows
@@ -109,9 +101,5 @@ fn of_gltf() -> Vec<Row> {
 
 /// The texel as a picture.
 pub(super) fn png() -> Vec<u8> {
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, 1, 1);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.write_header().unwrap().write_image_data(&TEXEL).unwrap();
-    bytes
+    encode_png([1, 1], &[TEXEL]).unwrap()
 }

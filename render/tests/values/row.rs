@@ -12,7 +12,7 @@ const ALBEDO: f64 = 0.5;
 
 pub(super) enum Text {
     Pbrt(String),
-    Gltf(String),
+    Gltf(Vec<u8>),
 }
 
 /// A scene and its right value.
@@ -57,7 +57,7 @@ impl Row {
         let name = &self.name;
         let scene = match &self.text {
             Text::Pbrt(text) => etendue_scene::parse(text, "row.pbrt", folder),
-            Text::Gltf(text) => etendue_scene::parse_gltf(text.as_bytes(), "row.gltf"),
+            Text::Gltf(text) => etendue_scene::parse_gltf(text, "row.gltf"),
         };
         let scene = scene.map_err(|error| format!("{name}: {error}"))?;
         let world = World::new(&scene).map_err(|error| format!("{name}: {error}"))?;

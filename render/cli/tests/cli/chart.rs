@@ -133,17 +133,6 @@ fn faults_are_reported() {
         let error = folder.fail(&arguments.split(' ').collect::<Vec<_>>());
         assert!(words.iter().all(|w| error.contains(w)), "{arguments}: {error}");
     };
-    says("chart none.pbrt", &["none.pbrt"]);
-    says("chart quads --spp 0", &["--spp", "0"]);
-    says("chart quads --techniques luck", &["luck"]);
-    says("chart quads sphere-light --reference a.exr", &["--reference"]);
-    says("chart quads --reference a.exr", &["a.exr"]);
-    says("chart quads --spp 3 --samplers adaptive", &["nothing to measure", "adaptive"]);
-    // hemisphere sampling does not apply to rough metals
-    says(
-        "chart plates --techniques uniform-hemisphere --reference-spp 32 --size 8x8",
-        &["nothing to measure", "rough"],
-    );
     fs::create_dir(folder.0.join("out")).unwrap();
     fs::write(folder.0.join("out/measurements.csv"), "a,b\n1,2\n").unwrap();
     says(&format!("{SMALL} -o out"), &["measurements.csv", "line 1"]);
@@ -154,9 +143,6 @@ fn faults_are_reported() {
     says(&format!("{SMALL} -o out"), &["measurements.csv", "line 2", "\"one\"", "replicate"]);
     fs::write(folder.0.join("file"), "").unwrap();
     says(&format!("{SMALL} -o file"), &["file"]);
-    // a reference whose size is not a multiple of the image's
-    folder.chart("render quads --size 9x9 --spp 4 -o a.exr");
-    says("chart quads --reference a.exr --size 8x8", &["a.exr", "9x9", "8x8"]);
 }
 
 #[cfg(unix)]
@@ -197,8 +183,6 @@ fn options(output: &Path, scene: &str) -> Options {
         samplers: vec![Sampler::Independent, Sampler::Stratified],
         spp: vec![4, 16, 64],
         replicates: Some(cases(4, 6)),
-        reference: None,
-        reference_error: 0.0,
         reference_spp: None,
         size: Some((64, 64)),
         seed: 5,

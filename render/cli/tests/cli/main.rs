@@ -238,33 +238,6 @@ fn bad_scenes_are_reported_with_file_and_line() {
 }
 
 #[test]
-fn bad_arguments_are_reported() {
-    let folder = Folder::new();
-    let unknown = ["render", "qads", "-o", "kept.exr"];
-    fails_untouched(&folder, &unknown, &["\"qads\"", "did you mean quads?", "mirror-room"]);
-    fails_untouched(&folder, &["render", ".", "-o", "kept.exr"], &["\".\""]);
-    for size in ["0x5", "5x0", "5", "5x", "x", "-1x5", "5x5x5", "65537x1", "65536x65536", "4.5x4"] {
-        fails_untouched(&folder, &["render", "quads", "-o", "kept.exr", &format!("--size={size}")], &["--size", size]);
-    }
-    for option in ["--sensor=irradiance", "--sensor=power"] {
-        fails_untouched(
-            &folder,
-            &["render", "quads", "-o", "kept.exr", option],
-            &[option.trim_start_matches("--sensor=")],
-        );
-    }
-    let arguments = ["render", "delta-lights", "-o", "kept.exr", "--choice", "tree"];
-    fails_untouched(&folder, &arguments, &["choice tree", "a sun or a sky"]);
-    let arguments = ["render", "quads", "-o", "kept.exr", "--sampler", "adaptive", "--spp", "7"];
-    fails_untouched(&folder, &arguments, &["--sampler", "7", "at least 8"]);
-    fails_untouched(&folder, &["render", "quads", "-o", "none/kept.exr"], &["none", "does not exist"]);
-    fails_untouched(&folder, &["render", "quads", "-o", "."], &["folder"]);
-    fails_untouched(&folder, &["render", "quads", "-o", "new.exr/"], &["folder"]);
-    fails_untouched(&folder, &["render"], &["SCENE"]);
-    fails_untouched(&folder, &["paint"], &["paint"]);
-}
-
-#[test]
 fn compare_tells_images_apart() {
     let folder = Folder::new();
     let render = |name: &str, size: &str, spp: &str, seed: &str| {

@@ -145,7 +145,7 @@ impl Trial {
             let least = if options.quick { 128 } else { 64 };
             let can_halve =
                 |scene: &usize| extent.sizes[*scene].iter().all(|side| *side > least && side.is_multiple_of(2));
-            let is_free = options.size.is_none() && options.reference.is_none();
+            let is_free = options.size.is_none();
             let slow = all.clone().filter(|scene| is_free && can_halve(scene));
             let slow = slow.max_by(|a, b| self.of_scene(extent, *a).total_cmp(&self.of_scene(extent, *b)));
             if options.reference_spp.is_none() && extent.reference_spp > 64 && references > 0.25 * goal {

@@ -34,14 +34,8 @@ pub struct Options {
     /// Light the scenes by this image of a sky (EXR, HDR, PFM or PNG), instead of their own skies
     #[arg(long, value_name = "FILE")]
     pub environment: Option<PathBuf>,
-    /// Reference image [default: the built-in one of the scene, or else one rendered now]
-    #[arg(long, value_name = "EXR")]
-    pub reference: Option<PathBuf>,
-    /// Mean squared standard error of the reference, used if its file has no variance
-    #[arg(long, value_name = "MSE", default_value_t = 0.0)]
-    pub reference_error: f64,
     /// Render the reference with this many samples per pixel [default without a built-in one: 4096, or fewer if the time is short; with --quick 256 by auto and adaptive]
-    #[arg(long, value_name = "SPP", conflicts_with = "reference", value_parser = whole::<u32>(32..=MOST_SAMPLES.into()))]
+    #[arg(long, value_name = "SPP", value_parser = whole::<u32>(32..=MOST_SAMPLES.into()))]
     pub reference_spp: Option<u32>,
     /// Image size in pixels [default: from the scene, or smaller if the time is short]
     #[arg(long, value_name = "WxH", value_parser = size)]
@@ -67,17 +61,6 @@ pub struct Options {
 }
 
 impl Options {
-    /// Checks what the parser of the command line cannot.
-    pub(super) fn check(&self) -> Result<(), String> {
-        if self.reference.is_some() && self.scenes.len() != 1 {
-            return Err("--reference needs exactly one scene".to_owned());
-        }
-        if !(0.0..f64::INFINITY).contains(&self.reference_error) {
-            return Err(format!("--reference-error {}: must be finite and at least 0", self.reference_error));
-        }
-        Ok(())
-    }
-
     /// The samplers to measure.
     pub(super) fn samplers(&self) -> Vec<Sampler> {
         let some = [Sampler::Independent, Sampler::Sobol, Sampler::Adaptive];

@@ -31,7 +31,7 @@ pub(super) struct Loaded {
 }
 
 impl Loaded {
-    /// Loads a scene, and its reference if that is a file.
+    /// Loads a scene, and its reference if it has one.
     pub(super) fn new(options: &Options, path: &OsStr) -> Result<Self, Box<dyn Error>> {
         let asked = Asked { sky: options.environment.clone(), ..Asked::default() };
         let scene = etendue_scene::load_as(path, &asked)?;
@@ -40,13 +40,7 @@ impl Loaded {
         let size = [width, height];
         let is_builtin = etendue_scene::builtin().iter().any(|(builtin, _)| *builtin == name);
         let is_own = is_builtin && options.reference_spp.is_none() && options.environment.is_none();
-        let reference = match &options.reference {
-            Some(path) => {
-                let read = Reference::read(path, options.reference_error)?;
-                Some(read.shrunk(size).map_err(|what| format!("{}: {what}", path.display()))?)
-            }
-            None => Reference::builtin(&name).filter(|_| is_own).and_then(|r| r.shrunk(size).ok()),
-        };
+        let reference = Reference::builtin(&name).filter(|_| is_own).and_then(|r| r.shrunk(size));
         let notes = scene.warnings.iter().map(|w| format!("warning: {w}")).collect();
         let world = World::new(&scene)?;
         let mut loaded = Self { name, scene, world, size, methods: Vec::new(), notes, reference };
@@ -129,7 +123,7 @@ impl Loaded {
         circumstances: &str,
     ) -> Result<ChartedScene, Box<dyn Error>> {
         let Self { name, scene, world, reference, .. } = self;
-        let reference = match reference.and_then(|r| r.shrunk(size).ok()) {
+        let reference = match reference.and_then(|r| r.shrunk(size)) {
             Some(reference) => reference,
             None => {
                 let bar = bar(size.map(u64::from).iter().product(), &format!("reference of {name}"))?;
