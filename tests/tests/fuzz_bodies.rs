@@ -6,9 +6,8 @@ use etendue_judge::fuzz_bodies::{TARGETS, Target};
 use etendue_judge::generators::Random;
 use etendue_judge::properties;
 use etendue_oracle::tier::cases;
+use rayon::prelude::*;
 use std::path::Path;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
 /// Runs every file in `fuzz/seeds/<target>`.
@@ -51,39 +50,24 @@ fn inverse_beside_an_upright_edge() {
     properties::inverse(&Subject::new(&triangle), [-0.504813015, 0.341584474, 0.79276967]);
 }
 
-/// Runs `count` inputs of 8 to 1,028 bytes on each target, with the targets distributed over all processors. An input that breaks a property
-/// is kept as a file.
+/// Runs `count` inputs of 8 to 1,028 bytes on each target. An input that breaks a property is kept as a file.
 fn random(count: impl Fn(&Target) -> u64 + Sync) {
-    let (next, total, broken) = (AtomicUsize::new(0), Mutex::new(0), Mutex::new(Vec::new()));
-    let run = || {
-        while let Some(target) = TARGETS.get(next.fetch_add(1, Ordering::Relaxed)) {
-            let (count, start) = (count(target), Instant::now());
-            let mut random = Random::new(count);
-            for i in 0..count {
-                let bytes: Vec<u8> = (0..8 + i % 256 * 4).map(|_| random.word() as u8).collect();
-                if std::panic::catch_unwind(|| (target.body)(&bytes)).is_err() {
-                    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(target.name);
-                    std::fs::write(&file, &bytes).unwrap();
-                    broken.lock().unwrap().push(format!(
-                        "{}: input {i} of {count}, kept as {}",
-                        target.name,
-                        file.display()
-                    ));
-                    break;
-                }
-            }
-            let each = start.elapsed().as_secs_f64() * 1e6 / count as f64;
-            println!("{:24} {count:7} inputs, {each:6.1} us each", target.name);
-            *total.lock().unwrap() += count;
-        }
+    let breaks = |target: &Target| {
+        let (count, start) = (count(target), Instant::now());
+        let mut random = Random::new(count);
+        let broken = (0..count).find_map(|i| {
+            let bytes: Vec<u8> = (0..8 + i % 256 * 4).map(|_| random.word() as u8).collect();
+            std::panic::catch_unwind(|| (target.body)(&bytes)).err().map(|_| {
+                let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(target.name);
+                std::fs::write(&file, &bytes).unwrap();
+                format!("{}: input {i} of {count}, kept as {}", target.name, file.display())
+            })
+        });
+        let each = start.elapsed().as_secs_f64() * 1e6 / count as f64;
+        println!("{:24} {count:7} inputs, {each:6.1} us each", target.name);
+        broken
     };
-    std::thread::scope(|scope| {
-        for _ in 0..std::thread::available_parallelism().map_or(1, Into::into) {
-            scope.spawn(run);
-        }
-    });
-    println!("{} inputs", total.lock().unwrap());
-    let broken = broken.into_inner().unwrap();
+    let broken: Vec<_> = TARGETS.par_iter().filter_map(breaks).collect();
     assert!(broken.is_empty(), "{}", broken.join("\n"));
 }
 
