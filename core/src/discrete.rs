@@ -236,10 +236,9 @@ impl<'a> PiecewiseConstant2d<'a> {
         buffer: &'a mut [f32],
     ) -> Result<Self, TableError> {
         let height = weights.len().checked_div(width).unwrap_or(0);
-        if weights.len() != width * height {
+        if weights.len() != width * height || height == 0 || buffer.len() != Self::buffer(width, height) {
             return Err(TableError::Length);
         }
-        PiecewiseConstant2d::from_buffer(&*buffer, width)?;
         let (rows, marginal) = buffer.split_at_mut(width * height);
         let weight = |x: usize, y: usize| f64::from(weights[y * width + x]);
         for (y, cdf) in rows.chunks_exact_mut(width).enumerate() {

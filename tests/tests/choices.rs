@@ -2,6 +2,7 @@
 
 mod bounds;
 mod discrete;
+mod faulty;
 mod fog;
 mod gloss;
 mod light_tree;

@@ -55,9 +55,9 @@ pub struct Texel<R: Real> {
 /// - Domain: u in [0, 1)²; any image of 1 to 2²⁴ columns and rows; finite weights ≥ 0, of any unit.
 /// - Density: probability of the texel over its solid angle, per steradian; 0 where the weight is 0.
 /// - Degenerate: no weight at all is an error when the table is built.
-/// - Greatest error: direction 6e−7; pdf 5e−7 relative to probability over solid angle, with the probability as drawn (see
-///   [`discrete`](crate::discrete)); in `invert(sample(u))` what so much of the direction is. A direction within 6e−7 of an edge of
-///   its texel may be found in the neighbour: where that matters take the texel that comes with the sample.
+/// - Greatest error: direction 6e−7, besides half a step of u; pdf 5e−7 relative to probability over solid angle, with the
+///   probability as drawn (see [`discrete`](crate::discrete)); in `invert(sample(u))` what so much of the direction is. A direction
+///   within 6e−7 of an edge of its texel may be found in the neighbour: where that matters take the texel that comes with the sample.
 /// - Source: PBR 4th ed., 12.5.2, but uniform by solid angle in each texel, so that no sine divides.
 ///
 /// ```

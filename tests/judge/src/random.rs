@@ -9,7 +9,7 @@ pub struct Random {
     numbers: Vec<u64>,
     /// How many of the numbers have been read.
     read: usize,
-    state: u64,
+    rest: etendue_oracle::Random,
 }
 
 impl From<u64> for Random {
@@ -22,7 +22,8 @@ impl Random {
     /// Starts a stream.
     #[must_use]
     pub fn new(seed: u64) -> Self {
-        Self { numbers: Vec::new(), read: 0, state: seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x1234_5678_9abc_def0 }
+        let state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x1234_5678_9abc_def0;
+        Self { numbers: Vec::new(), read: 0, rest: etendue_oracle::Random(state) }
     }
     /// Begins with these numbers.
     #[must_use]
@@ -39,11 +40,7 @@ impl Random {
             self.read += 1;
             return number;
         }
-        self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.state;
-        z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ z >> 31
+        self.rest.word()
     }
     /// One of the first `n` numbers; the same also where addresses have 32 bits.
     pub fn below(&mut self, n: usize) -> usize {

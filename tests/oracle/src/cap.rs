@@ -1,8 +1,8 @@
 //! What of a sphere is within a polygon, as seen from a point.
 
-use crate::double_double::{self as wide, Dd, Dd3, dd};
+use crate::double_double::{self as wide, Dd, Number};
 use crate::outline::{angle, clipped, lambert_vector, perimeter};
-use crate::vectors::{V3, along, basis, cross, dot, length, sub, unit};
+use crate::vectors::{V3, length, unit};
 
 /// Below this many radians, the rounding of the sums in double precision counts: they have terms of the size of 1.
 const SMALL: f64 = 1e-2;
@@ -35,114 +35,69 @@ impl Cap {
             return 0.0;
         }
         let small = self.sin < SMALL || perimeter(&corners) < SMALL;
-        if small { self.within_exactly(&corners, n) } else { self.within_in_double(&corners, n) }
+        if small { self.part::<Dd>(&corners, n) } else { self.part::<f64>(&corners, n) }
     }
-    fn within_in_double(&self, corners: &[V3], n: V3) -> f64 {
-        let (s, t) = basis(self.axis);
-        let alpha = self.sin.atan2(self.cos);
-        let share = 0.5 * (alpha - self.sin * self.cos);
-        let tan_squared = (self.sin / self.cos).powi(2);
-        let mut sum = [0.0; 3];
+    /// The same of corners at the distance 1, before the point.
+    fn part<T: Number>(&self, corners: &[V3], n: V3) -> f64 {
+        use wide::{add, basis, cross, dot, length, normalized, sub, times};
+        let (center, radius, half) = (self.center.map(T::from), T::from(self.radius), T::from(0.5));
+        let distance = length(center);
+        let axis = normalized(center);
+        let sin = radius / distance;
+        let cos = ((distance - radius) * (distance + radius)).sqrt() / distance;
+        let (s, t) = basis(axis);
+        let share = half * (sin.atan2(cos) - sin * cos);
+        let tan_squared = sin / cos * (sin / cos);
+        let corners: Vec<[T; 3]> = corners.iter().map(|v| normalized(v.map(T::from))).collect();
+        let mut sum = [T::default(); 3];
+        let mut take = |v: [T; 3], by: T| sum = add(sum, times(v, by));
         for (i, &p) in corners.iter().enumerate() {
-            let edge = sub(corners[(i + 1) % corners.len()], p);
+            let next = corners[(i + 1) % corners.len()];
+            let edge = sub(next, p);
             // within the cone: |u + xv|² < tan²α (f + xg)²
-            let (u, v) = (cross(self.axis, p), cross(self.axis, edge));
-            let (f, g) = (dot(self.axis, p), dot(self.axis, edge));
+            let (u, v) = (cross(axis, p), cross(axis, edge));
+            let (f, g) = (dot(axis, p), dot(axis, edge));
             let a = dot(v, v) - tan_squared * g * g;
             let b = dot(u, v) - tan_squared * f * g;
             let c = dot(u, u) - tan_squared * f * f;
-            let root = (b * b - a * c).max(0.0).sqrt();
-            let q = -(b + root.copysign(b));
-            let mut cuts = vec![0.0, 1.0];
-            cuts.extend([q / a, c / q].into_iter().filter(|x| (0.0..1.0).contains(x)));
-            cuts.sort_by(f64::total_cmp);
-            for pair in cuts.windows(2) {
-                let middle = 0.5 * (pair[0] + pair[1]);
-                let (from, to) = (along(p, edge, pair[0]), along(p, edge, pair[1]));
-                if a * middle * middle + 2.0 * b * middle + c < 0.0 {
-                    sum = along(sum, lambert_vector(&[self.axis, from, to]), 1.0);
-                } else {
-                    let [y0, y1] = [from, to].map(|x| dot(x, t).atan2(dot(x, s)));
-                    let mut turn = y1 - y0;
-                    if turn.abs() > core::f64::consts::PI {
-                        turn -= core::f64::consts::TAU.copysign(turn);
-                    }
-                    sum = along(sum, self.axis, 0.5 * self.sin * self.sin * turn);
-                    sum = along(sum, s, share * (y1.sin() - y0.sin()));
-                    sum = along(sum, t, share * (y0.cos() - y1.cos()));
-                }
-            }
-        }
-        dot(sum, n).abs()
-    }
-    /// The same in 106 bits.
-    fn within_exactly(&self, corners: &[V3], n: V3) -> f64 {
-        let (center, radius) = (dd(self.center), Dd::from(self.radius));
-        let distance = wide::length(center);
-        let axis = wide::times(center, Dd::from(1.0) / distance);
-        let sin = radius / distance;
-        let cos = ((distance - radius) * (distance + radius)).sqrt() / distance;
-        let helper = if self.axis[0].abs() < 0.6 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
-        let s = wide::normalized(wide::cross(dd(helper), axis));
-        let t = wide::cross(axis, s);
-        let half = Dd::from(0.5);
-        let share = half * (sin.atan2(cos) - sin * cos);
-        let tan = sin / cos;
-        let tan_squared = tan * tan;
-        let corners: Vec<Dd3> = corners.iter().map(|&v| wide::normalized(dd(v))).collect();
-        let mut sum = [Dd::default(); 3];
-        let mut add = |v: Dd3, by: Dd| sum = wide::add(sum, wide::times(v, by));
-        for (i, &p) in corners.iter().enumerate() {
-            let next = corners[(i + 1) % corners.len()];
-            let edge = wide::add(next, p.map(|x| -x));
-            let (u, v) = (wide::cross(axis, p), wide::cross(axis, edge));
-            let (f, g) = (wide::dot(axis, p), wide::dot(axis, edge));
-            let a = wide::dot(v, v) - tan_squared * g * g;
-            let b = wide::dot(u, v) - tan_squared * f * g;
-            let c = wide::dot(u, u) - tan_squared * f * f;
             let square = b * b - a * c;
             let mut cuts = vec![(0.0, p)];
             if square.to_f64() > 0.0 {
                 let root = square.sqrt();
                 let q = if b.to_f64() < 0.0 { root - b } else { -(b + root) };
-                let at = |x: Dd| (x.to_f64(), wide::add(p, wide::times(edge, x)));
+                let at = |x: T| (x.to_f64(), add(p, times(edge, x)));
                 let all = [(q, a), (c, q)].into_iter().filter(|(_, under)| under.to_f64() != 0.0);
                 cuts.extend(all.map(|(over, under)| at(over / under)).filter(|cut| cut.0 > 0.0 && cut.0 < 1.0));
             }
             cuts.push((1.0, next));
             cuts.sort_by(|one, other| one.0.total_cmp(&other.0));
             for pair in cuts.windows(2) {
-                let middle = Dd::from(0.5 * (pair[0].0 + pair[1].0));
+                let middle = T::from(0.5 * (pair[0].0 + pair[1].0));
                 let (from, to) = (pair[0].1, pair[1].1);
                 if (a * middle * middle + (b + b) * middle + c).to_f64() < 0.0 {
-                    for (from, to) in [(axis, from), (from, to), (to, axis)] {
-                        let across = wide::cross(from, to);
-                        let size = wide::length(across);
-                        if size.to_f64() > 0.0 {
-                            add(across, half * size.atan2(wide::dot(from, to)) / size);
-                        }
-                    }
+                    take(lambert_vector(&[axis, from, to]), T::from(1.0));
                 } else {
-                    let around = |v: Dd3| {
-                        let (x, y) = (wide::dot(v, s), wide::dot(v, t));
+                    let around = |v: [T; 3]| {
+                        let (x, y) = (dot(v, s), dot(v, t));
                         let size = (x * x + y * y).sqrt();
                         (x / size, y / size)
                     };
                     let ((x0, y0), (x1, y1)) = (around(from), around(to));
                     let turn = (x0 * y1 - y0 * x1).atan2(x0 * x1 + y0 * y1);
-                    add(axis, half * sin * sin * turn);
-                    add(s, share * (y1 - y0));
-                    add(t, share * (x0 - x1));
+                    take(axis, half * sin * sin * turn);
+                    take(s, share * (y1 - y0));
+                    take(t, share * (x0 - x1));
                 }
             }
         }
-        wide::dot(sum, dd(n)).to_f64().abs()
+        dot(sum, n.map(T::from)).to_f64().abs()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::vectors::dot;
 
     /// Both precisions agree on what is not small, and of a small polygon at the rim of a cap there is the share that a grid finds.
     #[test]
@@ -154,7 +109,7 @@ mod tests {
             let corner = |i: u32| unit([number(i), number(i + 1), 1.0 + number(i + 2).abs()]);
             let corners = [corner(4), corner(7), corner(11)];
             let n = unit([0.2 * number(14), 0.2 * number(15), 1.0]);
-            greatest = greatest.max((cap.within_in_double(&corners, n) - cap.within_exactly(&corners, n)).abs());
+            greatest = greatest.max((cap.part::<f64>(&corners, n) - cap.part::<Dd>(&corners, n)).abs());
         }
         assert!(greatest < 1e-14, "{greatest:e}");
         let cap = Cap::new([0.0, 0.0, 2.0], 1.0);

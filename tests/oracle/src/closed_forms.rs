@@ -1,6 +1,7 @@
 //! Closed forms of solid angles, projected solid angles and form factors.
 
-use crate::double_double::{Dd, Dd3, cross, dd, dot};
+use crate::double_double::{Dd, Dd3, dd, dot, length};
+use crate::outline::{clipped, lambert_vector};
 use crate::vectors::V3;
 use core::f64::consts::PI;
 
@@ -45,34 +46,13 @@ pub fn projected_cap(center: V3, radius: f64, normal: V3) -> f64 {
 /// Clips a convex polygon to the hemisphere of `n`.
 #[must_use]
 pub fn above_horizon(corners: &[Dd3], n: Dd3) -> Vec<Dd3> {
-    let mut above = Vec::new();
-    for (i, &a) in corners.iter().enumerate() {
-        let b = corners[(i + 1) % corners.len()];
-        let (ha, hb) = (dot(a, n), dot(b, n));
-        if ha.to_f64() >= 0.0 {
-            above.push(a);
-        }
-        if (ha.to_f64() < 0.0) != (hb.to_f64() < 0.0) {
-            let part = ha / (ha - hb);
-            above.push(core::array::from_fn(|k| a[k] + (b[k] - a[k]) * part));
-        }
-    }
-    above
+    clipped(corners, n, Dd::default())
 }
 
 /// Lambert's sum over the edges of a polygon above the horizon of `n`, accurate to 1e−13 for sizes down to 1e−8 of the distance.
 #[must_use]
 pub fn lambert(corners: &[Dd3], n: Dd3) -> f64 {
-    let mut sum = Dd::default();
-    for (i, &a) in corners.iter().enumerate() {
-        let b = corners[(i + 1) % corners.len()];
-        let normal = cross(a, b);
-        let length = dot(normal, normal).sqrt();
-        if length.to_f64() > 0.0 {
-            sum = sum + length.atan2(dot(a, b)) * dot(normal, n) / length;
-        }
-    }
-    0.5 * (sum / dot(n, n).sqrt()).to_f64().abs()
+    (dot(lambert_vector(corners), n) / length(n)).to_f64().abs()
 }
 
 /// Projected solid angle of a convex polygon: clipped to the horizon of `n`, then Lambert's sum over the edges.

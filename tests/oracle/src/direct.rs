@@ -10,19 +10,18 @@
 mod light;
 mod metal;
 mod pattern;
-mod random;
 mod scene;
 mod source;
 
-pub use metal::fresnel;
+pub use metal::{fresnel, microfacets};
 pub use pattern::{Beyond, Pattern, Picture, PositionMap};
 pub use scene::{Body, Detail, Emission, Finish, Form, Lens, Opacity, View};
 pub use source::{Cone, Sky, SurfacelessLight};
 
+use crate::random::Random;
 use crate::vectors::{V3, along, dot, sub, unit};
 use light::{Receiver, SeenLight, transmittance};
 use metal::brdf;
-use random::Random;
 use scene::{Hit, Prepared, hits};
 
 /// How much to compute.

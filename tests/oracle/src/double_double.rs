@@ -121,47 +121,93 @@ pub fn dd(a: [f64; 3]) -> Dd3 {
     a.map(Dd::from)
 }
 
-/// a + b.
-#[must_use]
-pub fn add(a: Dd3, b: Dd3) -> Dd3 {
-    core::array::from_fn(|i| a[i] + b[i])
-}
-
-/// sa.
-#[must_use]
-pub fn times(a: Dd3, s: Dd) -> Dd3 {
-    a.map(|x| x * s)
-}
-
-/// |a|.
-#[must_use]
-pub fn length(a: Dd3) -> Dd {
-    dot(a, a).sqrt()
-}
-
-/// a/|a|, or a if |a| is 0.
-#[must_use]
-pub fn normalized(a: Dd3) -> Dd3 {
-    let l = length(a);
-    if l.to_f64() > 0.0 { a.map(|x| x / l) } else { a }
-}
-
 /// Rounds a vector to f64.
 #[must_use]
 pub fn narrow(a: Dd3) -> [f64; 3] {
     a.map(Dd::to_f64)
 }
 
-/// a·b.
+/// A number of 53 or of 106 bits, of which vectors are.
+pub trait Number:
+    Copy
+    + Default
+    + From<f64>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// Rounds to f64.
+    fn to_f64(self) -> f64;
+    /// Square root.
+    #[must_use]
+    fn sqrt(self) -> Self;
+    /// Angle of (x, y) = (`other`, `self`).
+    #[must_use]
+    fn atan2(self, other: Self) -> Self;
+}
+macro_rules! number {
+    ($number:ident, $to_f64:expr) => {
+        impl Number for $number {
+            fn to_f64(self) -> f64 {
+                $to_f64(self)
+            }
+            fn sqrt(self) -> Self {
+                Self::sqrt(self)
+            }
+            fn atan2(self, other: Self) -> Self {
+                Self::atan2(self, other)
+            }
+        }
+    };
+}
+number!(f64, |x| x);
+number!(Dd, Dd::to_f64);
+
+/// a + b.
+pub fn add<T: Number>(a: [T; 3], b: [T; 3]) -> [T; 3] {
+    core::array::from_fn(|i| a[i] + b[i])
+}
+
+/// a − b.
+pub fn sub<T: Number>(a: [T; 3], b: [T; 3]) -> [T; 3] {
+    core::array::from_fn(|i| a[i] - b[i])
+}
+
+/// sa.
+pub fn times<T: Number>(a: [T; 3], s: T) -> [T; 3] {
+    a.map(|x| x * s)
+}
+
+/// |a|.
+pub fn length<T: Number>(a: [T; 3]) -> T {
+    dot(a, a).sqrt()
+}
+
+/// a/|a|, or a if |a| is 0.
 #[must_use]
-pub fn dot(a: Dd3, b: Dd3) -> Dd {
+pub fn normalized<T: Number>(a: [T; 3]) -> [T; 3] {
+    let l = length(a);
+    if l.to_f64() > 0.0 { a.map(|x| x / l) } else { a }
+}
+
+/// a·b.
+pub fn dot<T: Number>(a: [T; 3], b: [T; 3]) -> T {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// a×b.
-#[must_use]
-pub fn cross(a: Dd3, b: Dd3) -> Dd3 {
+pub fn cross<T: Number>(a: [T; 3], b: [T; 3]) -> [T; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// Two unit vectors perpendicular to the unit vector `n`.
+#[must_use]
+pub fn basis<T: Number>(n: [T; 3]) -> ([T; 3], [T; 3]) {
+    let helper = if n[0].to_f64().abs() < 0.6 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
+    let s = normalized(cross(helper.map(T::from), n));
+    (s, cross(n, s))
 }
 
 /// a·(b×c).

@@ -7,7 +7,7 @@
 //! - [`direct`]: images by direct lighting, exhaustive and without offsets of rays.
 //! - [`tier`]: how many cases a test runs.
 //! - At the root: vectors in f64; closed forms for caps, polygons and disks ([`cap`], [`projected_cap`], [`lambert`], …); quadrature
-//!   ([`gauss_legendre`], [`integrate`]); and [`Greatest`], the measure of a greatest error.
+//!   ([`gauss_legendre`], [`integrate`]); [`Random`] numbers; and [`Greatest`], the measure of a greatest error.
 
 mod cap;
 mod closed_forms;
@@ -18,6 +18,7 @@ pub mod flat;
 mod greatest;
 mod outline;
 mod quadrature;
+mod random;
 pub mod tier;
 mod vectors;
 pub mod visible;
@@ -27,4 +28,5 @@ pub use double_double::{dd, exact_sum};
 pub use flat::triangle_solid_angle;
 pub use greatest::Greatest;
 pub use quadrature::{gauss_legendre, integrate};
+pub use random::Random;
 pub use vectors::*;

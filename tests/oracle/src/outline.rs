@@ -1,26 +1,28 @@
 //! Outlines of polygons as seen from the origin.
 
-use crate::vectors::{V3, along, cross, dot, length, sub, unit};
+use crate::double_double::{Number, add, cross, dot, length, normalized, sub, times};
+use crate::vectors::{V3, along};
 use core::f64::consts::PI;
 
 /// The part of a polygon with normal · x ≥ `least`.
-pub(crate) fn clipped(corners: &[V3], normal: V3, least: f64) -> Vec<V3> {
+pub(crate) fn clipped<T: Number>(corners: &[[T; 3]], normal: [T; 3], least: T) -> Vec<[T; 3]> {
     let mut part = Vec::with_capacity(corners.len() + 1);
     for (i, &a) in corners.iter().enumerate() {
         let b = corners[(i + 1) % corners.len()];
-        let (ha, hb) = (dot(a, normal) - least, dot(b, normal) - least);
+        let [above, next] = [dot(a, normal) - least, dot(b, normal) - least];
+        let [ha, hb] = [above, next].map(T::to_f64);
         if ha >= 0.0 {
             part.push(a);
         }
         if (ha < 0.0 && hb > 0.0) || (ha > 0.0 && hb < 0.0) {
-            part.push(along(a, sub(b, a), ha / (ha - hb)));
+            part.push(add(a, times(sub(b, a), above / (above - next))));
         }
     }
     if part.len() < 3 { Vec::new() } else { part }
 }
 
 /// The angle between two vectors.
-pub(crate) fn angle(a: V3, b: V3) -> f64 {
+pub(crate) fn angle<T: Number>(a: [T; 3], b: [T; 3]) -> T {
     length(cross(a, sub(b, a))).atan2(dot(a, b))
 }
 
@@ -30,11 +32,11 @@ pub(crate) fn perimeter(corners: &[V3]) -> f64 {
 }
 
 /// ∫ r dω over a polygon, up to its sign: half the sum of the edges' angles along their normals.
-pub(crate) fn lambert_vector(corners: &[V3]) -> V3 {
-    let mut sum = [0.0; 3];
+pub(crate) fn lambert_vector<T: Number>(corners: &[[T; 3]]) -> [T; 3] {
+    let mut sum = [T::default(); 3];
     for (i, &a) in corners.iter().enumerate() {
         let b = corners[(i + 1) % corners.len()];
-        sum = along(sum, unit(cross(a, sub(b, a))), 0.5 * angle(a, b));
+        sum = add(sum, times(normalized(cross(a, sub(b, a))), T::from(0.5) * angle(a, b)));
     }
     sum
 }
@@ -52,7 +54,7 @@ pub(crate) fn solid_angle(corners: &[V3]) -> f64 {
 /// Twice the area of a convex polygon, along its normal.
 pub(crate) fn area_vector(corners: &[V3]) -> V3 {
     let of = |i: usize| cross(sub(corners[i], corners[0]), sub(corners[i + 1], corners[0]));
-    (1..corners.len() - 1).fold([0.0; 3], |sum, i| along(sum, of(i), 1.0))
+    (1..corners.len().saturating_sub(1)).fold([0.0; 3], |sum, i| along(sum, of(i), 1.0))
 }
 
 /// Ω⊥ of a convex polygon above the horizon of `n`.

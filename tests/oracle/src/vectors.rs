@@ -15,6 +15,18 @@ pub fn dot(a: V3, b: V3) -> f64 {
 pub fn cross(a: V3, b: V3) -> V3 {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
+/// `a + b`.
+#[must_use]
+#[inline]
+pub fn add(a: V3, b: V3) -> V3 {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+/// `a·s`.
+#[must_use]
+#[inline]
+pub fn times(a: V3, s: f64) -> V3 {
+    [a[0] * s, a[1] * s, a[2] * s]
+}
 /// `a + b·s`.
 #[must_use]
 #[inline]
@@ -61,7 +73,5 @@ pub fn narrow(a: V3) -> [f32; 3] {
 #[must_use]
 #[inline]
 pub fn basis(n: V3) -> (V3, V3) {
-    let helper = if n[0].abs() < 0.6 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
-    let s = unit(cross(helper, n));
-    (s, cross(n, s))
+    crate::double_double::basis(n)
 }

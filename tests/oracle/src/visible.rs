@@ -2,7 +2,7 @@
 //! pieces, and the pieces are added up: by Lambert's sum, or within a sphere by sectors and triangles about its axis.
 
 use crate::cap::Cap;
-use crate::outline::{clipped, lambert_vector, perimeter};
+use crate::outline::{area_vector, clipped, lambert_vector, perimeter};
 use crate::vectors::{V3, along, basis, cross, dot, length, sub, unit};
 
 /// A convex light or blocker, relative to the point that it is seen from.
@@ -147,10 +147,4 @@ impl Measure {
             None => dot(lambert_vector(piece), self.n).abs(),
         }
     }
-}
-
-/// Twice the area of a polygon, along its normal.
-fn area_vector(corners: &[V3]) -> V3 {
-    (1..corners.len().saturating_sub(1))
-        .fold([0.0; 3], |sum, i| along(sum, cross(sub(corners[i], corners[0]), sub(corners[i + 1], corners[0])), 1.0))
 }

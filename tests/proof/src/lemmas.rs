@@ -2,6 +2,7 @@
 
 use crate::limits::{self, Error};
 use etendue::{Real, f32x8};
+use etendue_oracle::Greatest;
 use rayon::prelude::*;
 
 /// The slack for the reference, `libm` in double precision, whose errors are below 1 ulp: relative to the argument.
@@ -23,7 +24,7 @@ pub struct LemmaErrors {
     /// How many arguments were tried.
     pub tried: u64,
     /// For sine, cosine, the component along and the one across: the greatest error and the greatest error over the argument, each with its argument.
-    pub greatest: Vec<[(f64, f32); 2]>,
+    pub greatest: [[Greatest<f32>; 2]; 4],
     /// Whether all errors are within the limits.
     pub holds: bool,
 }
@@ -75,7 +76,7 @@ impl Lemma {
         let dense = if whole { 0 } else { (1.0_f32 / 256.0).to_bits() };
         let last = self.most.to_bits();
         let chunks: Vec<u32> = (0..=last / CHUNK).collect();
-        let none = || (0_u64, vec![[(0.0_f64, 0.0_f32); 2]; 4]);
+        let none = || (0_u64, [[Greatest::NONE; 2]; 4]);
         let (tried, greatest) = chunks
             .into_par_iter()
             .map(|chunk| {
@@ -91,14 +92,9 @@ impl Lemma {
                         let errors = (self.errors)(f64::from(x.lane(k)), computed);
                         for (most, error) in found.1.iter_mut().zip(errors) {
                             let error = error.abs() + REFERENCE * f64::from(x.lane(k)).min(1.0);
-                            // a NaN must not pass
-                            let error = if error.is_nan() { f64::INFINITY } else { error };
                             let over = if x.lane(k) >= f32::MIN_POSITIVE { error / f64::from(x.lane(k)) } else { 0.0 };
-                            for (most, error) in most.iter_mut().zip([error, over]) {
-                                if error > most.0 {
-                                    *most = (error, x.lane(k));
-                                }
-                            }
+                            most[0].take(error, x.lane(k));
+                            most[1].take(over, x.lane(k));
                         }
                     }
                     found.0 += 8;
@@ -109,16 +105,14 @@ impl Lemma {
             .reduce(none, |mut a, b| {
                 a.0 += b.0;
                 for (a, b) in a.1.iter_mut().flatten().zip(b.1.into_iter().flatten()) {
-                    if b.0 > a.0 {
-                        *a = b;
-                    }
+                    b.at().into_iter().for_each(|at| a.take(b.error(), at));
                 }
                 a
             });
         let holds = greatest
             .iter()
             .zip(self.limits)
-            .all(|(found, limit)| found[0].0 <= limit.absolute && found[1].0 <= limit.slope);
+            .all(|(found, limit)| found[0].error() <= limit.absolute && found[1].error() <= limit.slope);
         LemmaErrors { tried, greatest, holds }
     }
 }

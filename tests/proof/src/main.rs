@@ -26,6 +26,7 @@ fn main() -> ExitCode {
             let errors: Vec<String> = found
                 .greatest
                 .iter()
+                .map(|most| most.map(|most| (most.error(), most.at().unwrap_or_default())))
                 .map(|[(error, at), (over, over_at)]| format!("{error:.3e} at {at:e}, {over:.3e}·x at {over_at:e}"))
                 .collect();
             println!(

@@ -4,6 +4,7 @@ use crate::defect::{self, Defect};
 use crate::tape;
 use crate::traced::Traced;
 use etendue::{Real, Vec2, f32x8};
+use etendue_oracle::Random;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -356,12 +357,8 @@ pub fn try_points(theorem: &dyn Theorem, points: u64) -> (f64, Vec<f64>) {
         .reduce(|| (0.0, Vec::new()), |a, b| if b.0 > a.0 { b } else { a })
 }
 
-/// A hash of point and parameter as a number in [0, 1].
+/// A hash of point and parameter as a number in [0, 1).
 fn fraction(point: u64, parameter: u64) -> f64 {
-    // SplitMix64 (Steele, Lea and Flood 2014)
-    let mut z = (point.wrapping_mul(31).wrapping_add(parameter).wrapping_add(1)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^= z >> 31;
-    (z >> 11) as f64 / ((1_u64 << 53) - 1) as f64
+    let point = point.wrapping_mul(31).wrapping_add(parameter).wrapping_add(1);
+    Random(point.wrapping_mul(0x9e37_79b9_7f4a_7c15)).unit()
 }

@@ -1,5 +1,6 @@
 //! Interval arithmetic encloses the exact results, which integers of 128 bits give here, and no interval is wider than it must be.
 
+use etendue_oracle::Random;
 use etendue_oracle::double_double::Dd;
 use etendue_proof::{Interval, affine::Affine};
 
@@ -34,19 +35,13 @@ fn plus(a: (i128, i32), b: (i128, i32)) -> (i128, i32) {
 }
 
 /// Numbers of all signs, magnitudes up to 2^±`reach`, and few or many digits.
-struct Numbers(u64, i32);
+struct Numbers(Random, i32);
 impl Numbers {
-    fn bits(&mut self) -> u64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        self.0
-    }
     fn next(&mut self) -> f64 {
-        let (bits, reach) = (self.bits(), self.1);
-        let digits = self.bits() % 53;
+        let (bits, reach) = (self.0.word(), self.1);
+        let digits = self.0.word() % 53;
         let fraction = (bits & ((1 << 52) - 1)) >> digits << digits;
-        let exponent = (self.bits() % (2 * reach as u64 + 1)) as i32 - reach;
+        let exponent = (self.0.word() % (2 * reach as u64 + 1)) as i32 - reach;
         let x = f64::from_bits(fraction | 1023 << 52) * f64::powi(2.0, exponent);
         if bits >> 63 == 1 { -x } else { x }
     }
@@ -59,7 +54,7 @@ fn is_tight(x: Interval) -> bool {
 
 #[test]
 fn sums_and_products_of_numbers() {
-    let mut numbers = Numbers(1, 30);
+    let mut numbers = Numbers(Random(1), 30);
     for _ in 0..1_000_000 {
         let (a, b) = (numbers.next(), numbers.next());
         let [x, y] = [a, b].map(Interval::point);
@@ -76,7 +71,7 @@ fn sums_and_products_of_numbers() {
 }
 #[test]
 fn quotients_and_roots_of_numbers() {
-    let mut numbers = Numbers(2, 30);
+    let mut numbers = Numbers(Random(2), 30);
     for _ in 0..1_000_000 {
         let (a, b) = (numbers.next(), numbers.next().abs());
         let quotient = Interval::point(a) / Interval::point(b);
@@ -95,7 +90,7 @@ fn quotients_and_roots_of_numbers() {
 }
 #[test]
 fn intervals_enclose_the_results_of_all_their_numbers() {
-    let mut numbers = Numbers(3, 8);
+    let mut numbers = Numbers(Random(3), 8);
     for _ in 0..200_000 {
         let mut interval = || {
             let (a, b) = (numbers.next(), numbers.next());
@@ -142,7 +137,7 @@ fn overflow_and_underflow_are_enclosed() {
 /// A polynomial of two parameters, by affine forms: it contains the values, and cancels what intervals do not.
 #[test]
 fn affine_forms_enclose_and_cancel() {
-    let mut numbers = Numbers(5, 2);
+    let mut numbers = Numbers(Random(5), 2);
     for _ in 0..20_000 {
         let (a, b, w) = (numbers.next(), numbers.next(), 1e-3);
         let ranges = [Interval::new(a - w, a + w), Interval::new(b - w, b + w)];

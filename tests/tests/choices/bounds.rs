@@ -7,7 +7,7 @@ use etendue::{BilinearPatch, Disk, Line, Parallelogram, PointLight, Rectangle, S
 use etendue_judge::generators::Random;
 use etendue_oracle::double_double::{Dd, dd};
 use etendue_oracle::tier::cases;
-use etendue_oracle::{V3, cross, dot, length, narrow, unit, wide};
+use etendue_oracle::{V3, cross, dot, gauss_legendre, length, narrow, unit, wide};
 
 /// Three vectors of a size, the first of which is up to 10⁶ times as long as the others.
 fn vectors(random: &mut Random) -> [[f32; 3]; 3] {
@@ -82,9 +82,16 @@ fn bounds_hold_lights_of_all_sizes() {
     }
 }
 
-/// The power of a patch that is flat is that of the parallelogram, however far away it is.
+/// The power of a patch that is flat is that of the parallelogram, however far away it is; that of a saddle is by its area.
 #[test]
-fn a_flat_patch_has_the_power_of_its_parallelogram() {
+fn patches_have_the_power_of_their_area() {
+    // z = st over a square, whose area nine Gauss points measure
+    let [o, x, y] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(Vec3::from);
+    let nodes = gauss_legendre::<20>();
+    let by_s = |s: f64| nodes.iter().map(|(t, weight)| weight * (1.0 + s * s + t * t).sqrt()).sum::<f64>();
+    let area: f64 = nodes.iter().map(|&(s, weight)| weight * by_s(s)).sum();
+    let saddle = BilinearPatch::new(o, x, y, Vec3::new(1.0, 1.0, 1.0_f32)).bound(1.0);
+    assert!((f64::from(saddle.power) / (PI * area) - 1.0).abs() < 2e-5, "{saddle:?}, {area}");
     let (s, t) = (Vec3::new(2.0, 1.0, 0.0), Vec3::new(0.0, 3.0, 4.0_f32));
     for far in [0.0, 1.0, 1e6] {
         let p = Vec3::new(far, -far, far);

@@ -1,52 +1,38 @@
 //! Choices of lights in view of what glossy surfaces reflect: probabilities, and what they are worth.
 
+use crate::reflection::ReflectingSurface;
 use core::f64::consts::{PI, TAU};
-use etendue::reflection::Reflection;
 use etendue::select::{Gloss, LightBound, LightChoice, SpatialLights};
 use etendue::{Mask, Real, Uint, Vec3, f32x8};
 use etendue_judge::generators::Random;
-use etendue_judge::light_tree::{Grove, Regime, place};
+use etendue_judge::light_tree::{Grove, PointAndNormal, Regime, place};
 use etendue_judge::packets::{lanes_of, vectors_of};
 use etendue_oracle::tier::cases;
-use etendue_oracle::{V3, along, basis, dot, length, narrow, sub, unit, wide};
+use etendue_oracle::{V3, dot, length, narrow, sub, unit, wide};
 
 /// A surface with a diffuse part and a rough one.
 #[derive(Clone, Copy, Debug)]
 struct Surface {
     p: V3,
-    normal: V3,
-    view: V3,
-    alpha: f64,
+    rough: ReflectingSurface,
     /// Albedos of the diffuse and of the rough part.
     albedos: [f64; 2],
 }
 
 impl Surface {
-    fn new(p: V3, normal: V3, random: &mut Random) -> Self {
-        let (s, t) = basis(normal);
-        let (cos, turn) = (random.magnitude(1e-3, 1.0), TAU * random.unit_f64());
-        let flat = along(s.map(|x| x * turn.cos()), t, turn.sin());
-        let view = unit(along(normal.map(|x| x * cos), flat, (1.0 - cos * cos).sqrt()));
-        let albedos = [[0.0, 1.0], [1.0, 0.0], [0.3, 0.04], [1e-3, 0.9]][random.word() as usize % 4];
-        Self { p, normal, view, alpha: random.magnitude(1e-3, 1.0), albedos }
+    fn new((p, n): PointAndNormal, random: &mut Random) -> Self {
+        let rough = ReflectingSurface::on(unit(wide(n)), random);
+        let albedos = [[0.0, 1.0], [1.0, 0.0], [0.3, 0.04], [1e-3, 0.9]][random.below(4)];
+        Self { p: wide(p), rough, albedos }
     }
     fn gloss(&self) -> Gloss<f32> {
-        let [normal, view] = [self.normal, self.view].map(|v| narrow(v).into());
         let [diffuse, rough] = self.albedos.map(|x| x as f32);
-        Gloss::new(diffuse, rough, &Reflection::new(self.alpha as f32, normal, view))
+        Gloss::new(diffuse, rough, &self.rough.reflection())
     }
-    /// f cosθ, with the albedo of the rough part as its Fresnel factor: GGX with correlated masking and shadowing.
+    /// f cosθ, with the albedo of the rough part as its Fresnel factor.
     fn reflected(&self, w: V3) -> f64 {
-        let half = unit(along(self.view, w, 1.0));
-        let [i, o, m] = [self.view, w, half].map(|v| dot(v, self.normal));
-        if o <= 0.0 {
-            return 0.0;
-        }
-        let square = self.alpha * self.alpha;
-        let density = square / (PI * (m * m * (square - 1.0) + 1.0).powi(2));
-        let root = |cos: f64| (square + (1.0 - square) * cos * cos).sqrt();
         let [diffuse, rough] = self.albedos;
-        o * (diffuse / PI + rough * density / (2.0 * (o * root(i) + i * root(o))))
+        diffuse / PI * dot(w, self.rough.normal).max(0.0) + rough * self.rough.reflected(w)
     }
 }
 
@@ -66,10 +52,8 @@ fn gloss_loses_no_light() {
             let tree = grove.tree();
             let few = (count <= SpatialLights::MOST).then(|| SpatialLights::new(&grove.bounds).unwrap());
             for _ in 0..cases(1, 10) {
-                let surfaces: [Surface; 8] = core::array::from_fn(|_| {
-                    let (p, n) = place(regime, &lamps, &mut random).0;
-                    Surface::new(wide(p), unit(wide(n)), &mut random)
-                });
+                let surfaces: [Surface; 8] =
+                    core::array::from_fn(|_| Surface::new(place(regime, &lamps, &mut random).0, &mut random));
                 let gloss = surfaces.map(|surface| surface.gloss());
                 let eight = Gloss::splat(gloss[0]);
                 let eight = (1..8).fold(eight, |all, k| {
@@ -78,15 +62,15 @@ fn gloss_loses_no_light() {
                 });
                 let [p, n] = [
                     vectors_of::<f32x8>(|i| narrow(surfaces[i].p)),
-                    vectors_of::<f32x8>(|i| narrow(surfaces[i].normal)),
+                    vectors_of::<f32x8>(|i| narrow(surfaces[i].rough.normal)),
                 ];
                 let us: [f32; 8] = core::array::from_fn(|_| random.unit());
                 let u = lanes_of::<f32x8>(|i| f64::from(us[i]));
                 let by_tree = tree.at_glossy(p, n, &eight).choose(u);
                 let by_few = few.as_ref().map(|few| few.at_glossy(p, n, &eight).choose(u));
                 for (k, surface) in surfaces.iter().enumerate() {
-                    let (p, n) = (vector(surface.p), vector(surface.normal));
-                    grove.glossy((narrow(surface.p), narrow(surface.normal)), &gloss[k], us[k]);
+                    let (p, n) = (vector(surface.p), vector(surface.rough.normal));
+                    grove.glossy((narrow(surface.p), narrow(surface.rough.normal)), &gloss[k], us[k]);
                     let glossy = tree.at_glossy(p, n, &gloss[k]);
                     let sum: f64 = (0..count as u32).map(|light| f64::from(glossy.pmf(light))).sum();
                     assert!(sum < 1.0 + 1e-5, "{regime:?}: {sum}, {surface:?}");
@@ -114,9 +98,9 @@ fn diffuse_surfaces_have_the_same_bits() {
     let grove = Grove::of(&lamps);
     for _ in 0..300 {
         let (p, n) = place(Regime::Room, &lamps, &mut random).0;
-        let mut surface = Surface::new(wide(p), unit(wide(n)), &mut random);
+        let mut surface = Surface::new((p, n), &mut random);
         surface.albedos = [1.0, 0.0];
-        let (p, n, u) = (p.into(), vector(surface.normal), random.unit());
+        let (p, n, u) = (p.into(), vector(surface.rough.normal), random.unit());
         let [a, b] =
             [grove.tree().at::<f32>(p, n), grove.tree().at_glossy(p, n, &surface.gloss())].map(|at| at.choose(u));
         assert_eq!((a.index, a.pmf.to_bits(), a.u.to_bits()), (b.index, b.pmf.to_bits(), b.u.to_bits()));
@@ -125,7 +109,7 @@ fn diffuse_surfaces_have_the_same_bits() {
 
 /// The variance of reflected light, without visibility, by choices with and without gloss: relative to its square.
 fn variances(grove: &Grove, surface: &Surface) -> [f64; 2] {
-    let (p, n) = (vector(surface.p), vector(surface.normal));
+    let (p, n) = (vector(surface.p), vector(surface.rough.normal));
     let (matt, glossy) = (grove.tree().at::<f32>(p, n), grove.tree().at_glossy(p, n, &surface.gloss()));
     let (mut sum, mut squares) = (0.0, [0.0; 2]);
     for (light, bound) in (0..).zip(&grove.bounds) {
@@ -162,7 +146,8 @@ fn choices_are_worth_their_gloss() {
                     let turn = TAU * random.unit_f64();
                     let sine = (1.0_f64 - cos * cos).sqrt();
                     let view = [sine * turn.cos(), sine * turn.sin(), cos];
-                    let surface = Surface { p: [x, y, 0.0], normal: [0.0, 0.0, 1.0], view, alpha, albedos };
+                    let rough = ReflectingSurface { alpha, normal: [0.0, 0.0, 1.0], view };
+                    let surface = Surface { p: [x, y, 0.0], rough, albedos };
                     let both = variances(&grove, &surface);
                     (0..2).for_each(|k| sums[k] += both[k] / count as f64);
                 }

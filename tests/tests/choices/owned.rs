@@ -1,6 +1,5 @@
 //! Tables that own their memory have the bits of those in the caller's.
 
-use etendue::discrete::TableError;
 use etendue::light::{EnvironmentMap, ImageEnvironment, Picture, Region};
 use etendue::owned::{OwnedEnvironment, OwnedPicture, OwnedTree};
 use etendue::select::{LightBound, LightChoice, LightTree, Node8};
@@ -64,15 +63,4 @@ fn images_have_the_bits_of_those_in_other_memory() {
         same(&plain.get().on(disk).by_solid_angle(Vec3::ZERO), &flat.on(disk).by_solid_angle(Vec3::ZERO));
         same(&smooth.get().on(screen).by_area(Vec3::ZERO), &between.on(screen).by_area(Vec3::ZERO));
     }
-}
-
-#[test]
-fn images_of_no_size_are_errors() {
-    let map = EnvironmentMap::EqualArea;
-    for width in [0, 2, 4, usize::MAX] {
-        assert_eq!(OwnedEnvironment::new(&[1.0; 3], width, map).unwrap_err(), TableError::Length, "{width}");
-        assert_eq!(OwnedPicture::new(&[1.0; 3], width, Region::Square).unwrap_err(), TableError::Length, "{width}");
-        assert_eq!(OwnedPicture::interpolated(vec![1.0; 3], width).unwrap_err(), TableError::Length, "{width}");
-    }
-    assert_eq!(OwnedPicture::new(&[0.0; 4], 2, Region::Square).unwrap_err(), TableError::Empty);
 }

@@ -151,23 +151,16 @@ fn sines_and_arcs(all: &mut String, extent: Extent) {
     ];
     let domain = |x: f32| x.abs() < 1.0 || x == -1.0;
     let truth = Truth { of: |x: f64| [x.acos()], domain };
-    check(
-        all,
-        extent,
-        "Real::acos",
-        figures,
-        |x| [Real::acos(x)],
-        truth,
-        |x, [y], [truth], at, found| {
-            if domain(x) {
-                found.error(0, relative(y, truth), at);
-                found.error(1, (f64::from(y) - truth).abs(), at);
-            } else {
-                let expected = if x < 0.0 { core::f32::consts::PI } else { 0.0 };
-                found.outside("π below −1, and 0 from 1 on and of NaN", y == expected, at);
-            }
-        },
-    );
+    let call = |x| [Real::acos(x)];
+    check(all, extent, "Real::acos", figures, call, truth, |x, [y], [truth], at, found| {
+        if domain(x) {
+            found.error(0, relative(y, truth), at);
+            found.error(1, (f64::from(y) - truth).abs(), at);
+        } else {
+            let expected = if x < 0.0 { core::f32::consts::PI } else { 0.0 };
+            found.outside("π below −1, and 0 from 1 on and of NaN", y == expected, at);
+        }
+    });
 
     // the angles of (1, v), (v, 1), (−1, v) and (v, −1): every quotient that the polynomial can have, in four octants; the other four
     // differ by the sign of y, which is copied
@@ -197,23 +190,16 @@ fn roots(all: &mut String, extent: Extent) {
         figure("relative, below 2⁻¹⁰⁰", 1.1e-7, 0x00c4_dc07),
     ];
     let truth = Truth { of: |x: f64| [x.cbrt()], domain: normal };
-    check(
-        all,
-        extent,
-        "Real::cbrt",
-        figures,
-        |x| [Real::cbrt(x)],
-        truth,
-        |x, [y], [truth], at, found| {
-            if normal(x) {
-                found.error(usize::from(x < 2.0_f32.powi(-100)), relative(y, truth), at);
-            } else if x == f32::INFINITY {
-                found.outside("NaN of infinity", y.is_nan(), at);
-            } else {
-                found.outside("0 of subnormal and negative numbers and of NaN", y == 0.0, at);
-            }
-        },
-    );
+    let call = |x| [Real::cbrt(x)];
+    check(all, extent, "Real::cbrt", figures, call, truth, |x, [y], [truth], at, found| {
+        if normal(x) {
+            found.error(usize::from(x < 2.0_f32.powi(-100)), relative(y, truth), at);
+        } else if x == f32::INFINITY {
+            found.outside("NaN of infinity", y.is_nan(), at);
+        } else {
+            found.outside("0 of subnormal and negative numbers and of NaN", y == 0.0, at);
+        }
+    });
 
     let figures = [figure("relative", 3.5e-2, 0x20b9_a7df)];
     let truth = Truth { of: |x: f64| [x.cbrt()], domain: normal };
@@ -229,48 +215,34 @@ fn roots(all: &mut String, extent: Extent) {
     let figures = [figure("relative", 9e-8, 0x017f_ffff)];
     let domain = |x: f32| x > 0.0 && x < f32::INFINITY;
     let truth = Truth { of: |x: f64| [x.sqrt()], domain };
-    check(
-        all,
-        extent,
-        "rsqrt",
-        figures,
-        |x| [rsqrt(x)],
-        truth,
-        |x, [y], [root], at, found| {
-            if domain(x) {
-                found.error(0, (f64::from(y) * root - 1.0).abs(), at);
-            } else if x == 0.0 || x == f32::INFINITY {
-                found.outside("the reciprocal of 0 and of infinity", y == 1.0 / x, at);
-            } else {
-                found.outside("NaN of negative numbers and of NaN", y.is_nan(), at);
-            }
-        },
-    );
+    let call = |x| [rsqrt(x)];
+    check(all, extent, "rsqrt", figures, call, truth, |x, [y], [root], at, found| {
+        if domain(x) {
+            found.error(0, (f64::from(y) * root - 1.0).abs(), at);
+        } else if x == 0.0 || x == f32::INFINITY {
+            found.outside("the reciprocal of 0 and of infinity", y == 1.0 / x, at);
+        } else {
+            found.outside("NaN of negative numbers and of NaN", y.is_nan(), at);
+        }
+    });
 
     let figures = [figure("relative", 1.2e-7, 0x3e70_8b42)];
     let domain = |s: f32| (0.0..=1.0).contains(&s);
     let truth = Truth { of: |s: f64| [s / (1.0 + (1.0 - s).sqrt())], domain };
-    check(
-        all,
-        extent,
-        "one_minus_cos",
-        figures,
-        |s| [one_minus_cos(s)],
-        truth,
-        |s, [y], [truth], at, found| {
-            if s.is_nan() || s == f32::NEG_INFINITY {
-                found.outside("NaN of NaN and of −∞", y.is_nan(), at);
-            } else if s > 1.0 {
-                found.outside("the argument itself above 1", y == s, at);
-            } else if s < 0.0 {
-                found.outside("finite for negative numbers", y.is_finite(), at);
-            } else if truth >= LEAST {
-                found.error(0, relative(y, truth), at);
-            } else {
-                found.demand("within half a step of 2⁻¹⁴⁹", (f64::from(y) - truth).abs() <= 2.0_f64.powi(-150), at);
-            }
-        },
-    );
+    let call = |s| [one_minus_cos(s)];
+    check(all, extent, "one_minus_cos", figures, call, truth, |s, [y], [truth], at, found| {
+        if s.is_nan() || s == f32::NEG_INFINITY {
+            found.outside("NaN of NaN and of −∞", y.is_nan(), at);
+        } else if s > 1.0 {
+            found.outside("the argument itself above 1", y == s, at);
+        } else if s < 0.0 {
+            found.outside("finite for negative numbers", y.is_finite(), at);
+        } else if truth >= LEAST {
+            found.error(0, relative(y, truth), at);
+        } else {
+            found.demand("within half a step of 2⁻¹⁴⁹", (f64::from(y) - truth).abs() <= 2.0_f64.powi(-150), at);
+        }
+    });
 }
 
 /// A function that is exact or rounded once: each result is compared with the definition, if there is one for the argument.

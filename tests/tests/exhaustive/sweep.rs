@@ -1,8 +1,8 @@
 //! Goes over many inputs on all processors, keeps the greatest errors, and compares them with the documented ones.
 
 use core::fmt::Write;
-use core::sync::atomic::{AtomicU64, Ordering};
 use etendue_oracle::Greatest;
+use rayon::prelude::*;
 use std::time::Instant;
 
 /// Which inputs are taken: all, or one packet of [`SPARSE`].
@@ -126,28 +126,14 @@ pub(crate) fn on_all_processors<const M: usize>(
     chunks: u64,
     each: impl Fn(u64, &mut SweepErrors<M>) + Sync,
 ) -> SweepErrors<M> {
-    let (next, start) = (AtomicU64::new(0), Instant::now());
-    let quarter = chunks.div_ceil(4).max(256);
-    let work = || {
-        let mut found = SweepErrors::new();
-        loop {
-            let chunk = next.fetch_add(1, Ordering::Relaxed);
-            if chunk >= chunks {
-                return found;
-            }
-            if chunk % quarter == 0 && chunk > 0 {
-                println!("    {name}: {} % after {:.0?}", 100 * chunk / chunks, start.elapsed());
-            }
-            each(chunk, &mut found);
-        }
-    };
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let found = std::thread::scope(|scope| {
-        let all: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
-        all.into_iter().map(|thread| thread.join().expect("no panic")).fold(SweepErrors::new(), |mut sum, part| {
-            sum.merge(&part);
-            sum
-        })
+    let start = Instant::now();
+    let parts = (0..chunks).into_par_iter().fold(SweepErrors::new, |mut found, chunk| {
+        each(chunk, &mut found);
+        found
+    });
+    let found = parts.reduce(SweepErrors::new, |mut sum, part| {
+        sum.merge(&part);
+        sum
     });
     println!("{name}: {:.1?}", start.elapsed());
     found

@@ -1,9 +1,11 @@
 //! What a host gets wrong at first, as the documentation of `LightSampler` says it.
 
-use etendue::{Disk, LightSampler, Parallelogram, Polygon, Rectangle, Sphere, Triangle, Vec2, Vec3};
+use etendue::{LightSampler, Sphere, Triangle, Vec2, Vec3};
+use etendue_judge::area_lights::{AreaLight, LightShape, Measure};
+use etendue_judge::fixture::Fixture;
 use etendue_judge::generators::Random;
 use etendue_judge::packets::Coordinates;
-use etendue_oracle::{length, sub, unit};
+use etendue_oracle::{length, narrow, sub, unit};
 
 type V = Vec3<f32>;
 
@@ -38,89 +40,62 @@ fn a_normal_that_points_away_leaves_nothing() {
     assert!(s.pdf > 0.0 && s.direction.y < 0.0);
 }
 
-#[test]
-fn a_light_seen_from_behind_has_a_pdf_but_no_weight() {
-    let above = v(0.2, 2.0, 0.1);
-    let turned = Triangle::new(v(0.0, 1.0, 0.0), v(0.0, 1.0, 1.0), v(1.0, 1.0, 0.0));
-    let (corner, edges) = (v(0.0, 1.0, 0.0), [v(1.0, 0.0, 0.0), v(0.0, 0.0, 1.0)]);
-    let panel = Parallelogram::new(corner, edges[0], edges[1]);
-    let square = Rectangle::new(corner, edges[0], edges[1]);
-    let polygon = Polygon::new([corner, corner + edges[0], corner + edges[0] + edges[1], corner + edges[1]]);
-    let disk = Disk::new(corner, v(0.0, -1.0, 0.0), 0.5);
-    let n = v(0.0, -1.0, 0.0);
-    let behind: [Box<dyn LightSampler<f32>>; 12] = [
-        Box::new(lamp().by_area(above)),
-        Box::new(lamp().by_solid_angle(above)),
-        Box::new(turned.by_area(v(0.2, 0.0, 0.1))),
-        Box::new(turned.by_solid_angle(v(0.2, 0.0, 0.1))),
-        Box::new(panel.by_area(above)),
-        Box::new(square.by_solid_angle(above)),
-        Box::new(panel.by_projected_solid_angle(above, n)),
-        Box::new(polygon.by_area(above)),
-        Box::new(polygon.by_solid_angle(above)),
-        Box::new(polygon.by_projected_solid_angle(above, n)),
-        Box::new(disk.by_area(above)),
-        Box::new(disk.by_solid_angle(above)),
-    ];
-    for light in behind {
-        let s = light.sample(U);
-        assert!(s.pdf > 0.0 && !s.emits && s.weight() == 0.0 && !s.valid(), "{s:?}");
-        assert_eq!(s.two_sided().weight(), 1.0 / s.pdf);
-        let hit = light.hit(s.direction);
-        assert!(hit.pdf > 0.0 && !hit.emits, "{hit:?}");
-    }
+/// All flat lights by all techniques: a square, or its half, or a disk, which emits downwards, seen from a point over whose normal `n` it is.
+fn flat(p: [f32; 3], n: [f32; 3]) -> impl Iterator<Item = (AreaLight, Box<dyn LightSampler<f32>>)> {
+    let is_flat = |kind: &&(LightShape, Measure)| !matches!(kind.0, Sphere | Patch | Line);
+    use LightShape::{Disk, Line, Patch, Sphere};
+    AreaLight::kinds().iter().filter(is_flat).map(move |&(shape, by)| {
+        let (a, b) = ([0.5, 1.0, 0.25], if shape == Disk { [0.0, -1.0, 0.0] } else { [1.0, 0.0, 0.0] });
+        let light = AreaLight { p, radius: 1.5, ..AreaLight::seen(shape, by, [a, b, [0.0, 0.0, 1.0]], n) };
+        (light, AreaLight::prepare(&[light]))
+    })
 }
 
-/// All samplers of a light with a point on it, by name.
-fn on_emitters() -> Vec<(&'static str, bool, Box<dyn LightSampler<f32>>)> {
-    let n = v(0.0, 0.8, 0.6);
-    let mut all: Vec<(&'static str, bool, Box<dyn LightSampler<f32>>)> = Vec::new();
-    let (o, a, b) = (v(0.5, 1.0, 0.25), v(1.0, 0.0, 0.0), v(0.0, 0.0, 1.0));
-    for (s, t) in [(0.25, 0.25), (0.0, 0.5), (0.0, 0.0)] {
-        let p = o + a * s + b * t;
-        all.push(("triangle by area", true, Box::new(Triangle { v0: o, e1: a, e2: b }.by_area(p))));
-        all.push(("triangle by solid angle", true, Box::new(Triangle { v0: o, e1: a, e2: b }.by_solid_angle(p))));
-        all.push(("triangle", true, Box::new(Triangle { v0: o, e1: a, e2: b }.by_projected_solid_angle(p, n))));
-        all.push(("parallelogram by area", true, Box::new(Parallelogram::new(o, a, b).by_area(p))));
-        all.push(("parallelogram by solid angle", true, Box::new(Parallelogram::new(o, a, b).by_solid_angle(p))));
-        all.push(("parallelogram", true, Box::new(Parallelogram::new(o, a, b).by_projected_solid_angle(p, n))));
-        all.push(("rectangle by solid angle", true, Box::new(Rectangle::new(o, a, b).by_solid_angle(p))));
-        let corners = [o, o + a, o + a + b, o + b];
-        all.push(("polygon by area", true, Box::new(Polygon::new(corners).by_area(p))));
-        all.push(("polygon by solid angle", true, Box::new(Polygon::new(corners).by_solid_angle(p))));
-        all.push(("polygon", true, Box::new(Polygon::new(corners).by_projected_solid_angle(p, n))));
-        let disk = Disk::new(o, v(0.0, -1.0, 0.0), 1.5);
-        all.push(("disk by area", true, Box::new(disk.by_area(p))));
-        all.push(("disk by solid angle", true, Box::new(disk.by_solid_angle(p))));
+#[test]
+fn a_light_seen_from_behind_has_a_pdf_but_no_weight() {
+    for (light, sampler) in flat([0.7, 2.0, 0.35], [0.0, -1.0, 0.0]) {
+        let s = sampler.sample(U);
+        assert!(s.pdf > 0.0 && !s.emits && s.weight() == 0.0 && !s.valid(), "{light:?}: {s:?}");
+        assert_eq!(s.two_sided().weight(), 1.0 / s.pdf);
+        let hit = sampler.hit(s.direction);
+        assert!(hit.pdf > 0.0 && !hit.emits, "{light:?}: {hit:?}");
     }
-    let mut random = Random::new(5);
-    for _ in 0..50 {
-        let way = V::from(random.direction().map(|x| x as f32));
-        let p = o + way * 0.7;
-        all.push(("sphere by area", false, Box::new(Sphere::new(o, 0.7).by_area(p))));
-        all.push(("sphere by solid angle", false, Box::new(Sphere::new(o, 0.7).by_solid_angle(p))));
-        all.push(("sphere", false, Box::new(Sphere::new(o, 0.7).by_projected_solid_angle(p, way))));
-        let patch = etendue::BilinearPatch::new(o, a, b, a + b + v(0.1, 0.4, 0.0));
-        let on = patch.by_area(V::default()).sample(Vec2::new(random.unit(), random.unit()));
-        all.push(("patch", false, Box::new(patch.by_area(on.direction * on.distance))));
+    for (light, sampler) in flat([0.7, 0.0, 0.35], [0.0, 1.0, 0.0]) {
+        assert!(sampler.sample(U).valid(), "{light:?}");
     }
-    all
 }
 
 #[test]
 fn from_a_point_on_the_light_all_is_finite_and_flat_lights_have_no_pdf() {
     let mut random = Random::new(6);
-    for (name, flat, sampler) in on_emitters() {
+    let mut all: Vec<_> = [[0.75, 1.0, 0.5], [0.5, 1.0, 0.75], [0.5, 1.0, 0.25]]
+        .into_iter()
+        .flat_map(|p| flat(p, [0.0, 0.8, 0.6]).map(|(light, sampler)| (light, true, sampler)))
+        .collect();
+    let round = AreaLight::kinds().iter().filter(|kind| matches!(kind.0, LightShape::Sphere | LightShape::Patch));
+    for (&(shape, by), _) in round.flat_map(|kind| (0..50).map(move |i| (kind, i))) {
+        let way = random.direction().map(|x| x as f32);
+        let n = if shape == LightShape::Patch { [1.1, 0.4, 1.0] } else { way };
+        let light = AreaLight::seen(shape, by, [[0.5, 1.0, 0.25], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]], n);
+        let st = [random.unit_f64(), random.unit_f64()];
+        let p = if shape == LightShape::Patch {
+            narrow(light.on_patch(st))
+        } else {
+            (V::from(light.a) + V::from(way) * 0.7).to_array()
+        };
+        let light = AreaLight { p, radius: 0.7, ..light };
+        all.push((light, false, AreaLight::prepare(&[light])));
+    }
+    for (light, is_flat, sampler) in all {
         for _ in 0..50 {
             let s = sampler.sample(Vec2::new(random.unit(), random.unit()));
-            let w = V::from(random.direction().map(|x| x as f32));
-            let hit = sampler.hit(w);
+            let hit = sampler.hit(V::from(random.direction().map(|x| x as f32)));
             let numbers =
                 [s.pdf, s.weight(), s.distance, hit.pdf, hit.weight(), hit.distance, sampler.pdf(s.direction)];
-            assert!(numbers.iter().all(|x| x.is_finite() && *x >= 0.0), "{name}: {s:?}, {hit:?}");
+            assert!(numbers.iter().all(|x| x.is_finite() && *x >= 0.0), "{light:?}: {s:?}, {hit:?}");
             let u = sampler.invert(s.direction);
-            assert!((0.0..1.0).contains(&u.x) && (0.0..1.0).contains(&u.y), "{name}: {u:?}");
-            assert!(!flat || s.pdf == 0.0 && hit.pdf == 0.0, "{name}: {s:?}, {hit:?}");
+            assert!((0.0..1.0).contains(&u.x) && (0.0..1.0).contains(&u.y), "{light:?}: {u:?}");
+            assert!(!is_flat || s.pdf == 0.0 && hit.pdf == 0.0, "{light:?}: {s:?}, {hit:?}");
         }
     }
 }

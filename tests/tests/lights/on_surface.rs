@@ -5,20 +5,10 @@ use etendue::{
     BilinearPatch, DirectionalLight, Disk, Frame, LightSampler, Line, Mask, Parallelogram, PointLight, Polygon, Real,
     Rectangle, Sphere, SpotLight, Sun, Triangle, Vec2, Vec3,
 };
+use etendue_judge::generators::Random;
 use etendue_oracle::tier::cases;
 
 type V<R> = Vec3<R>;
-
-/// A generator of bits (Marsaglia 2003).
-struct Random(u64);
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
 
 /// Numbers of a precision.
 struct Numbers {
@@ -30,10 +20,10 @@ struct Numbers {
 
 impl Numbers {
     fn unit<R: Real>(&mut self) -> R {
-        R::lit(self.random.unit())
+        R::lit(self.random.unit_f64())
     }
     fn signed<R: Real>(&mut self) -> R {
-        R::lit(2.0 * self.random.unit() - 1.0)
+        R::lit(2.0 * self.random.unit_f64() - 1.0)
     }
     fn vector<R: Real>(&mut self) -> V<R> {
         V::new(self.signed(), self.signed(), self.signed())
@@ -42,7 +32,7 @@ impl Numbers {
         V::lit(self.shift) + self.vector() * R::lit(self.size)
     }
     fn edge<R: Real>(&mut self) -> V<R> {
-        let length = R::lit(self.size * 10_f64.powf(-4.0 * self.random.unit()));
+        let length = R::lit(self.size * 10_f64.powf(-4.0 * self.random.unit_f64()));
         self.vector() * length
     }
 }
@@ -85,7 +75,7 @@ fn greatest<R: Real>(vectors: &[V<R>]) -> R {
 fn shapes<R: Real<Scalar = R>>(numbers: &mut Numbers) -> Vec<Shape<R>> {
     let one = R::lit(1.0);
     let (a, e, f): (V<R>, V<R>, V<R>) = (numbers.point(), numbers.edge(), numbers.edge());
-    let radius = R::lit(numbers.size * 10_f64.powf(-3.0 * numbers.random.unit()));
+    let radius = R::lit(numbers.size * 10_f64.powf(-3.0 * numbers.random.unit_f64()));
     let normal: V<R> = numbers.vector::<R>().unit_and_length().0;
     let (b, c) = (a + e, a + f);
     let frame = Frame::new(normal);
@@ -144,7 +134,7 @@ fn on_plane() {
             [(1.0, [0.0; 3]), (1e-12, [0.0; 3]), (1e12, [0.0; 3]), (1.0, [30.0, -100.0, 7.0]), (3e3, [1e3, 2e4, 0.0])];
         let each = cases(10_u32, 100);
         for (scene, (size, shift)) in scenes.into_iter().enumerate() {
-            let mut numbers = Numbers { random: Random(seed * 0x9e37_79b9 + scene as u64), size, shift };
+            let mut numbers = Numbers { random: Random::new(5 * seed + scene as u64), size, shift };
             for _ in 0..20_000 / 5 / each {
                 for (kind, shape) in shapes::<R>(&mut numbers).into_iter().enumerate() {
                     let flat = shape.normal.max_abs().lane_f64(0) > 0.0;

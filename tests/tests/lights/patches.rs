@@ -2,8 +2,7 @@
 
 use etendue::{BilinearPatch, LightSampler, Vec2};
 use etendue_judge::generators::Random;
-use etendue_oracle::tier::cases;
-use etendue_oracle::{V3, along, cross, dot, length, narrow, sub, unit, wide};
+use etendue_oracle::{V3, along, cross, dot, narrow, sub, wide};
 
 /// Corner, and from there both edges and the opposite corner.
 type Corners = [[f32; 3]; 4];
@@ -49,12 +48,6 @@ fn flat() -> Vec<(&'static str, Corners)> {
     all
 }
 
-/// The point at (s, t).
-fn at(patch: Corners, s: f64, t: f64) -> V3 {
-    let [p, u, v, w] = patch.map(wide);
-    along(along(along(p, u, s), v, t), sub(sub(w, u), v), s * t)
-}
-
 #[test]
 fn a_ray_to_a_sample_of_a_flat_patch_hits_that_sample() {
     let mut random = Random::new(1);
@@ -77,39 +70,6 @@ fn a_ray_to_a_sample_of_a_flat_patch_hits_that_sample() {
             assert!(f64::from((again.x - u.x).abs().max((again.y - u.y).abs())) < 4e-5 / cos, "{again:?}: {}", said());
         }
     }
-}
-
-/// By the midpoint rule over a part of the plane that is larger than the patch: what is beside it counts, too.
-#[test]
-fn pdf_of_a_flat_patch_integrates_to_1() {
-    const N: usize = 150;
-    let mut worst = 0.0_f64;
-    for (name, patch) in flat().into_iter().step_by(cases(3, 1)) {
-        let sampler = sampler(patch);
-        let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]].map(|[s, t]| at(patch, s, t));
-        let normal = unit(cross(wide(patch[1]), wide(patch[2])));
-        let axis = (0..3).find(|&k| normal[k].abs() > 0.5).unwrap();
-        let [a, b] = [(axis + 1) % 3, (axis + 2) % 3];
-        let range = |k: usize| {
-            let [low, high] = [f64::min, f64::max].map(|of| corners.iter().map(|c| c[k]).reduce(of).unwrap());
-            (low - 0.2 * (high - low), 1.4 * (high - low) / N as f64)
-        };
-        let ((low_a, step_a), (low_b, step_b)) = (range(a), range(b));
-        let mut sum = 0.0;
-        for i in 0..N {
-            for j in 0..N {
-                let mut point = corners[0];
-                (point[a], point[b]) = (low_a + step_a * (i as f64 + 0.5), low_b + step_b * (j as f64 + 0.5));
-                let (d, w) = (length(point), unit(point));
-                let pdf = sampler.pdf(narrow(w).into());
-                sum += f64::from(pdf) * w[axis].abs() / (d * d) * step_a * step_b;
-            }
-        }
-        worst = worst.max((sum - 1.0).abs());
-        // a row of points more or less along each edge
-        assert!((sum - 1.0).abs() < 0.025, "{name} {patch:?}: {sum}");
-    }
-    println!("off by up to {worst:.1e}");
 }
 
 /// The nearest point in a direction, by the quadratic equation in s; and how near to another answer that is.
@@ -144,11 +104,11 @@ fn nearest(patch: Corners, ray: V3) -> (Option<f64>, f64) {
     (best, margin)
 }
 
-/// Rays beside the outline of a twisted patch have no real root, and miss it; so do those beside a patch with an edge of length 0.
+/// Rays beside the outline of a twisted patch have no real root, and miss it; so do those beside a flat one, and beside one with an edge of length 0.
 #[test]
 fn rays_hit_a_patch_where_it_is() {
     let mut random = Random::new(3);
-    let (mut hits, mut misses) = (0, 0);
+    let mut patches: Vec<Corners> = flat().into_iter().map(|(_, patch)| patch).collect();
     for round in 0..1500 {
         let mut unit = || random.direction().map(|x| x as f32);
         let [p, u, mut v, d] = [unit(), unit(), unit(), unit()];
@@ -156,8 +116,10 @@ fn rays_hit_a_patch_where_it_is() {
         if round % 7 == 0 {
             v = [0.0; 3];
         }
-        let w = core::array::from_fn(|k| u[k] + v[k] + twist * d[k]);
-        let patch = [p.map(|x| 0.7 * x), u, v, w];
+        patches.push([p.map(|x| 0.7 * x), u, v, core::array::from_fn(|k| u[k] + v[k] + twist * d[k])]);
+    }
+    let mut count = [0; 2];
+    for patch in patches {
         let sampler = sampler(patch);
         for _ in 0..400 {
             let ray = narrow(random.direction());
@@ -167,20 +129,15 @@ fn rays_hit_a_patch_where_it_is() {
             }
             let hit = sampler.hit(ray.into());
             let cos = f64::from(hit.direction.dot(hit.normal).abs());
-            match truth {
-                Some(distance) => {
-                    hits += 1;
-                    let off = (f64::from(hit.distance) / distance - 1.0).abs();
-                    assert!(hit.pdf > 0.0 && off < 1e-4 / cos, "{distance} is {hit:?}: {patch:?}");
-                }
-                None => {
-                    misses += 1;
-                    // a ray in the plane of a flat patch is known to neither side of it
-                    assert!(hit.pdf == 0.0 || cos < 1e-3, "a miss is {hit:?}: {patch:?}");
-                }
-            }
+            count[usize::from(truth.is_some())] += 1;
+            // a ray in the plane of a flat patch is known to neither side of it
+            let right = truth.map_or(hit.pdf == 0.0 || cos < 1e-3, |distance| {
+                hit.pdf > 0.0 && (f64::from(hit.distance) / distance - 1.0).abs() < 1e-4 / cos
+            });
+            assert!(right, "{truth:?} is {hit:?}: {patch:?}");
         }
     }
+    let [misses, hits] = count;
     println!("{hits} hits, {misses} misses");
-    assert!(hits > 20_000 && misses > 200_000, "{hits} hits, {misses} misses");
+    assert!(hits > 30_000 && misses > 200_000, "{hits} hits, {misses} misses");
 }

@@ -1,5 +1,6 @@
 //! Every light by every technique, as an integrator uses it: one trait, one pdf.
 
+use crate::lights::stretch;
 use etendue::reflection::Reflection;
 use etendue::{
     Lanewise, LightSample, LightSampler, Line, Mask, Parallelogram, Polygon, Real, Rectangle, Sphere, Triangle, Vec2,
@@ -9,7 +10,8 @@ use etendue_judge::area_lights::{AreaLight, LightShape, Measure};
 use etendue_judge::fixture::Fixture;
 use etendue_judge::generators::Random;
 use etendue_judge::packets::Coordinates;
-use etendue_oracle::{V3, cross, dot, length, sub, unit, wide};
+use etendue_judge::tolerances::ULP;
+use etendue_oracle::{V3, along, cross, dot, length, sub, unit, wide};
 
 /// Clearly out of its plane, or not flat, so that the shape is known to more than rounding.
 fn clear(light: &AreaLight) -> bool {
@@ -21,63 +23,107 @@ fn clear(light: &AreaLight) -> bool {
     !(flat && (low || slim && !light.shape.has_normal()))
 }
 
-/// A ray hits the point of the sample: distance, normal and surface coordinates agree.
-#[test]
-fn a_hit_is_the_point_that_was_sampled() {
-    for kind in 0..AreaLight::kinds().len() {
-        let (shape, by) = AreaLight::kinds()[kind];
-        if shape == LightShape::Line {
-            continue;
+/// The point and the unit normal at surface coordinates, by their definition. `None` of a disk, whose axes are not defined, and of a line.
+fn place(light: &AreaLight, [s, t]: [f64; 2]) -> Option<(V3, V3)> {
+    let (a, b, c) = (wide(light.a), wide(light.b), wide(light.c));
+    Some(match light.shape {
+        LightShape::Disk | LightShape::Line => return None,
+        LightShape::Sphere => {
+            let (z, (sin, cos)) = (1.0 - 2.0 * s, (core::f64::consts::TAU * t).sin_cos());
+            let r = ((1.0 - z) * (1.0 + z)).max(0.0).sqrt();
+            let n = [r * cos, r * sin, z];
+            (along(a, n, light.radius.into()), n)
         }
-        let mut random = Random::new(300 + kind as u64);
-        let (mut seen, mut hidden) = (0, 0);
-        for round in 0..500 {
-            let light = AreaLight::any(kind, round * 20, &mut random);
-            let sampler = AreaLight::prepare::<f64>(&[light]);
-            let s = sampler.sample(Vec2::new(random.unit_f64(), random.unit_f64()));
-            let cos = dot(s.direction.at(0), s.normal.at(0)).abs();
-            if !clear(&light) || !s.valid() || cos < 0.05 {
-                continue;
-            }
-            seen += 1;
-            let hit = sampler.hit(s.direction);
-            if shape == LightShape::Patch && hit.distance < 0.999 * s.distance {
-                // another sheet of the patch hides it, if there is one
-                let sheet = light.on_patch([hit.uv.x, hit.uv.y]);
-                let ray: [f64; 3] = hit.direction.at(0).map(|x| x * hit.distance);
-                assert!(length(sub(sheet, ray)) < 1e-9 * s.distance / cos, "{light:?}: {hit:?} for {s:?}");
-                hidden += 1;
-                continue;
-            }
-            let off = (hit.distance / s.distance - 1.0).abs();
-            // the normal of a disk has length 1 to the rounding of single precision
-            assert!(hit.valid() && off < 1e-6 / cos, "{shape:?} {by:?}: {hit:?} for {s:?}");
-            assert!(length(sub(hit.normal.at(0), s.normal.at(0))) < 1e-6, "{shape:?} {by:?}: {hit:?} for {s:?}");
-            let [du, dv] = [hit.uv.x - s.uv.x, hit.uv.y - s.uv.y].map(f64::abs);
-            let near = |d: f64| d.min(1.0 - d) < 1e-5 / cos;
-            assert!(near(du) && near(dv), "{shape:?} {by:?}: {hit:?} for {s:?}");
+        LightShape::Patch => {
+            let twist = sub(sub(wide(light.n), b), c);
+            (light.on_patch([s, t]), unit(cross(along(b, twist, t), along(c, twist, s))))
         }
-        assert!(seen > 50 && hidden < seen / 10, "{shape:?} {by:?}: {seen}, and {hidden} hidden");
-    }
+        _ => (along(along(a, b, s), c, t), unit(cross(b, c))),
+    })
 }
 
-/// Normals are unit vectors, and surface coordinates are in [0, 1], of samples at both ends of `u` too; of spheres in any unit of length.
+/// The point of a sample is at its distance in its direction, and there are its normal and its surface coordinates; its density is that of the
+/// map; and a ray hits that point.
 #[test]
-fn samples_know_a_normal_and_a_place() {
-    for kind in 0..AreaLight::kinds().len() {
-        let mut random = Random::new(700 + kind as u64);
-        let powers: &[i32] = if AreaLight::kinds()[kind].0 == LightShape::Sphere { &[-90, 0, 60] } else { &[0] };
-        for round in 0..400 {
+fn samples_and_hits_know_their_place() {
+    fn check<R: Real<Scalar = R>>(light: &AreaLight, u: [f64; 2], slack: f64) -> Option<bool> {
+        let sampler = AreaLight::prepare::<R>(&[*light]);
+        let s = sampler.sample(Vec2::lit(u));
+        let (n, uv, distance) = (s.normal.at(0), [s.uv.x, s.uv.y].map(|x| x.lane_f64(0)), s.distance.lane_f64(0));
+        if !s.valid().all() {
+            return None;
+        }
+        let said = || format!("{light:?} at {u:?}: {s:?}");
+        // the corners of a polygon are rounded
+        let slack = if light.shape == LightShape::Polygon { slack.max(1.5e-7) } else { slack };
+        assert!(uv.iter().all(|x| (0.0..=1.0).contains(x)) && (length(n) - 1.0).abs() < 1e-5, "{}", said());
+        let cos = dot(s.direction.at(0), n).abs();
+        if !clear(light) || cos < 0.01 {
+            return None;
+        }
+        let to = s.direction.at(0).map(|x| x * distance);
+        // a point that is rounded turns the normal of a small sphere
+        let bend = 1.0 + if light.shape == LightShape::Sphere { distance / f64::from(light.radius) } else { 0.0 };
+        if let Some((point, normal)) = place(light, uv) {
+            let off = length(sub(point, to)) / (distance + length(wide(light.b)));
+            assert!(off < 64.0 * slack / cos, "{point:?}, off by {off:e}: {}", said());
+            let off = length(sub(normal, n));
+            assert!(off < 64.0 * slack * bend / cos, "{normal:?}, off by {off:e}: {}", said());
+        }
+        let is_round = matches!(light.shape, LightShape::Sphere | LightShape::Disk);
+        let size = if is_round { f64::from(light.radius) } else { length(wide(light.c)) };
+        let draw = |u: Vec2<f64>| {
+            let s = sampler.sample(Vec2::lit([u.x, u.y]));
+            (s.direction.at(0), s.pdf.lane_f64(0), s.valid().all())
+        };
+        if let Some(stretch) = stretch(draw, u).filter(|_| R::DOUBLE && light.shape != LightShape::Line) {
+            let off = (stretch - 1.0).abs();
+            assert!(off < 5e-4 + 1e-9 * distance / size, "the map stretches {stretch} times the density: {}", said());
+        }
+        if !R::DOUBLE && light.shape == LightShape::Patch {
+            // a rounded direction does not determine the point of a bent surface
+            return None;
+        }
+        let hit = sampler.hit(s.direction);
+        let found = hit.distance.lane_f64(0);
+        if light.shape == LightShape::Line || light.shape == LightShape::Patch && found < 0.999 * distance {
+            // another sheet of the patch hides it, if there is one
+            let sheet = light.on_patch([hit.uv.x, hit.uv.y].map(|x| x.lane_f64(0)));
+            let off = length(sub(sheet, hit.direction.at(0).map(|x| x * found)));
+            assert!(light.shape == LightShape::Line || off < 1e3 * slack * distance / cos, "{hit:?}: {}", said());
+            return Some(false);
+        }
+        let off = (found / distance - 1.0).abs().max(length(sub(hit.normal.at(0), n)) / bend);
+        assert!(hit.valid().all() && off < 128.0 * slack / cos, "{hit:?}: {}", said());
+        let again = [hit.uv.x, hit.uv.y].map(|x| x.lane_f64(0));
+        let off = match place(light, again) {
+            Some((point, _)) => length(sub(point, to)) / (distance + length(wide(light.b))),
+            None => (again[0] - uv[0]).abs().max((again[1] - uv[1]).abs()) / (1.0 + distance / size),
+        };
+        // azimuths are known to steps of 2⁻²⁴
+        assert!(off < 256.0 * ULP / cos, "off by {off:e}, {hit:?}: {}", said());
+        Some(true)
+    }
+    for (kind, (shape, by)) in AreaLight::kinds().iter().enumerate() {
+        let (mut random, mut seen) = (Random::new(300 + kind as u64), [0; 2]);
+        for round in 0..500 {
             let light = AreaLight::any(kind, 20 * round, &mut random);
-            let mut coordinate = || [0.0, 1.0 - f32::EPSILON / 2.0, random.unit()][random.word() as usize % 3];
-            let u = Vec2::new(coordinate(), coordinate());
-            for power in powers {
-                let s = AreaLight::prepare::<f32>(&[light.scaled(2.0_f32.powi(*power))]).sample(u);
-                let is_inside = [s.uv.x, s.uv.y].iter().all(|x| (0.0..=1.0).contains(x));
-                let is_unit = (length(s.normal.at(0)) - 1.0).abs() < 1e-5;
-                assert!(!s.valid() || is_inside && is_unit, "by 2^{power}: {light:?} at {u:?}: {s:?}");
+            let mut coordinate = || [0.0, 1.0 - ULP, random.unit_f64(), random.unit_f64()][random.below(4)];
+            let u = [coordinate(), coordinate()];
+            let found = [check::<f32>(&light, u, 1.5e-7), check::<f64>(&light, u, 1e-9)];
+            found.into_iter().flatten().for_each(|is_hit| seen[usize::from(is_hit)] += 1);
+            if *shape == LightShape::Sphere {
+                // in any unit of length
+                for power in [-90, 60] {
+                    check::<f32>(&light.scaled(2.0_f32.powi(power)), u, 1.5e-7);
+                }
             }
         }
+        let [hidden, hit] = seen;
+        assert!(
+            *shape == LightShape::Line || hit > 100 && hidden < hit / 10,
+            "{shape:?} {by:?}: {hit}, {hidden} hidden"
+        );
     }
 }
 
@@ -236,46 +282,6 @@ fn slivers_have_one_pdf() {
     check::<f64>();
 }
 
-/// The surface coordinates and the normal of a sample are those of the point at its distance in its direction, in double precision.
-#[test]
-fn samples_know_their_place() {
-    let mut random = Random::new(11);
-    let v = |x: [f64; 3]| Vec3::<f32>::from(x.map(|x| x as f32));
-    for _ in 0..20_000 {
-        let mut a = random.direction().map(|x| 3.0 * x);
-        let (b, mut c) = (random.direction(), random.direction());
-        // right angles, for rectangles
-        let along = dot(b, c);
-        c = core::array::from_fn(|k| c[k] - along * b[k]);
-        a = a.map(|x| f64::from(x as f32));
-        let (u, o) = (Vec2::new(random.unit(), random.unit()), Vec3::default());
-        let (triangle, panel) = (Triangle { v0: v(a), e1: v(b), e2: v(c) }, Rectangle::new(v(a), v(b), v(c)));
-        let samples = [
-            triangle.by_solid_angle(o).sample(u),
-            triangle.by_area(o).sample(u),
-            Parallelogram::from(panel).by_solid_angle(o).sample(u),
-            panel.by_solid_angle(o).sample(u),
-            panel.by_area(o).sample(u),
-        ];
-        for (k, s) in samples.into_iter().enumerate() {
-            let cos = dot(s.direction.at(0), s.normal.at(0)).abs();
-            let [x, y, _] = s.uv.at(0);
-            let (there, here) = (along_edges(a, [b, c], [x, y]), s.direction.at(0).map(|w| w * f64::from(s.distance)));
-            let off = length(sub(there, here));
-            assert!(s.pdf == 0.0 || off < 1e-5 / cos.max(1e-3), "{k}: {there:?} for {here:?}, off by {off:e}: {s:?}");
-            assert!(k > 1 || x + y < 1.0 + 1e-5, "{s:?}");
-        }
-        let sphere = Sphere::new(v(a), 0.5);
-        for s in [sphere.by_solid_angle(o).sample(u), sphere.by_area(o).sample(u)] {
-            let normal = sub(s.direction.at(0).map(|w| w * f64::from(s.distance)), a).map(|x| 2.0 * x);
-            assert!(length(sub(normal, s.normal.at(0))) < 2e-5, "{normal:?} for {s:?}");
-        }
-    }
-}
-fn along_edges(from: V3, [b, c]: [V3; 2], [x, y]: [f64; 2]) -> V3 {
-    core::array::from_fn(|k| from[k] + x * b[k] + y * c[k])
-}
-
 /// A number that is none in a light, in the point, in its normal or among the random numbers leaves neither samples nor densities nor hits.
 #[test]
 fn what_is_no_number_gives_no_light() {
@@ -323,49 +329,30 @@ fn what_is_no_number_gives_no_light() {
 /// Nor does it where samples are drawn by a lobe.
 #[test]
 fn what_is_no_number_leaves_no_samples_of_lobes() {
-    struct SphereInLobe {
-        vectors: [Vec3<f32>; 4],
-        radius: f32,
-        reflection: Reflection<f32>,
-        u: Vec2<f32>,
+    /// A point, three vectors, a normal's height, a radius and two random numbers.
+    type Numbers = [f32; 16];
+    fn vectors(x: &Numbers) -> [Vec3<f32>; 4] {
+        [0, 3, 6, 9].map(|k| Vec3::new(x[k], x[k + 1], x[k + 2]))
     }
-    let place = |x: [f32; 16]| {
-        let v = |k: usize| Vec3::new(x[k], x[k + 1], x[k + 2]);
-        let reflection = Reflection::new(0.5, Vec3::new(0.0, x[12], 0.0), Vec3::new(0.0, 0.8, 0.6));
-        SphereInLobe { vectors: [v(0), v(3), v(6), v(9)], radius: x[13], reflection, u: Vec2::new(x[14], x[15]) }
-    };
-    type Sample = fn(&SphereInLobe) -> LightSample<f32>;
-    let samples: [(&str, Sample); 5] = [
-        ("sphere", |s| Sphere::new(s.vectors[1], s.radius).by_reflection(s.vectors[0], &s.reflection).sample(s.u)),
-        ("triangle", |s| {
-            let [p, v0, e1, e2] = s.vectors;
-            Triangle { v0, e1, e2 }.by_reflection(p, &s.reflection).sample(s.u)
-        }),
-        ("parallelogram", |s| {
-            let [p, corner, e1, e2] = s.vectors;
-            Parallelogram::new(corner, e1, e2).by_reflection(p, &s.reflection).sample(s.u)
-        }),
-        ("rectangle", |s| {
-            let [p, corner, e1, e2] = s.vectors;
-            Rectangle::new(corner, e1, e2).by_reflection(p, &s.reflection).sample(s.u)
-        }),
-        ("polygon", |s| {
-            let [p, corner, e1, e2] = s.vectors;
-            Polygon::new([corner, corner + e1, corner + e2]).by_reflection(p, &s.reflection).sample(s.u)
-        }),
+    fn sample<S: LightSampler<f32>>(x: &Numbers, by: impl FnOnce(&Reflection<f32>) -> S) -> LightSample<f32> {
+        let lobe = Reflection::new(0.5, Vec3::new(0.0, x[12], 0.0), Vec3::new(0.0, 0.8, 0.6));
+        by(&lobe).sample(Vec2::new(x[14], x[15]))
+    }
+    let samples: [(&str, fn(&Numbers, [Vec3<f32>; 4]) -> LightSample<f32>); 5] = [
+        ("sphere", |x, [p, a, ..]| sample(x, |lobe| Sphere::new(a, x[13]).by_reflection(p, lobe))),
+        ("triangle", |x, [p, a, b, c]| sample(x, |lobe| Triangle { v0: a, e1: b, e2: c }.by_reflection(p, lobe))),
+        ("parallelogram", |x, [p, a, b, c]| sample(x, |lobe| Parallelogram::new(a, b, c).by_reflection(p, lobe))),
+        ("rectangle", |x, [p, a, b, c]| sample(x, |lobe| Rectangle::new(a, b, c).by_reflection(p, lobe))),
+        ("polygon", |x, [p, a, b, c]| sample(x, |lobe| Polygon::new([a, a + b, a + c]).by_reflection(p, lobe))),
     ];
-    #[rustfmt::skip]
-    let right = [
-        0.0, 0.0, 0.0,  0.3, 2.0, 0.4,  1.0, 0.0, 0.0,  0.0, 0.1, 1.0,
-        1.0,  0.25,  0.3, 0.6,
-    ];
+    let right = [0.0, 0.0, 0.0, 0.3, 2.0, 0.4, 1.0, 0.0, 0.0, 0.0, 0.1, 1.0, 1.0, 0.25, 0.3, 0.6];
     for (name, sample) in samples {
-        let before = sample(&place(right));
+        let before = sample(&right, vectors(&right));
         let mut lost = 0;
         for number in 0..right.len() {
             let mut broken = right;
             broken[number] = f32::NAN;
-            let after = sample(&place(broken));
+            let after = sample(&broken, vectors(&broken));
             let is_ignored = (after.pdf, after.direction) == (before.pdf, before.direction);
             let nothing = after.pdf == 0.0 && after.weight() == 0.0;
             assert!(nothing || is_ignored, "{name}: number {number} is NaN, and the pdf {}", after.pdf);

@@ -10,6 +10,7 @@ use etendue::{
     BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, Frame, Line, Parallelogram, PointLight, Polygon, Real,
     Rectangle, Sphere, SpotLight, Sun, Triangle, Vec2, Vec3, Warp, warp::UniformSphere,
 };
+use etendue_judge::stats;
 use etendue_oracle::tier::cases;
 
 type V<R> = Vec3<R>;
@@ -88,6 +89,14 @@ fn up<R: Real>() -> Side<R> {
     Side::Surface(v([0.0, 1.0, 0.0]))
 }
 
+/// The mean of numbers, and its standard error.
+fn mean(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    let values: Vec<f64> = values.collect();
+    assert!(values.iter().all(|x| x.is_finite()));
+    let (mean, variance) = stats::mean_variance(&values);
+    [mean, (variance / values.len() as f64).sqrt()]
+}
+
 /// The mean of L cosθ · weight over samples, and its standard error; without a normal, of L · weight.
 fn estimate<R: Number + Real<Uint = u32>>(
     lights: &[(Emitter<R>, R)],
@@ -97,20 +106,14 @@ fn estimate<R: Number + Real<Uint = u32>>(
 ) -> [f64; 2] {
     let set = Lights::new(lights.iter().cloned()).unwrap();
     let at = set.at(Receiver { point, side, on: None });
-    let (mut sum, mut squares, count) = (0.0, 0.0, cases(30_000, 1_000_000));
-    for i in 0..count {
+    mean((0..cases(30_000, 1_000_000)).map(|i| {
         let s = at.sample(numbers(seed, i));
         let cos = match side {
             Side::Surface(n) => s.direction.dot(n).lane_f64(0).max(0.0),
             _ => 1.0,
         };
-        let x = lights[s.which.light as usize].1.lane_f64(0) * cos * s.weight().lane_f64(0);
-        assert!(x.is_finite());
-        sum += x;
-        squares += x * x;
-    }
-    let (mean, n) = (sum / f64::from(count), f64::from(count));
-    [mean, ((squares / n - mean * mean).max(0.0) / n).sqrt()]
+        lights[s.which.light as usize].1.lane_f64(0) * cos * s.weight().lane_f64(0)
+    }))
 }
 
 fn agree([a, error]: [f64; 2], [b, other]: [f64; 2], what: &str) {
@@ -170,34 +173,22 @@ fn emitted_rays_carry_the_irradiance_of_their_light() {
                 |part: u32| lights.emit(Which { light: 0, part }, [R::lit(0.3); 4], scene).pdf.lane_f64(0) > 0.0;
             let parts = (0..).take_while(|&part| leaves(part));
             let parts = parts.count() as u32;
-            let (mut rays, mut samples) = ([0.0; 2], [0.0; 2]);
-            let add = |sums: &mut [f64; 2], x: R| {
-                let x = x.lane_f64(0);
-                *sums = [sums[0] + x, sums[1] + x * x];
-            };
-            for k in 0..n {
-                let [a, b, c] = numbers::<R>(i as u32, k);
-                let [d, e, f] = numbers::<R>(i as u32 + 100, k);
-                let which = Which { light: 0, part: k % parts };
-                let ray = lights.emit(which, [a, b, d, e], scene);
+            let samples = (0..n).map(|k| {
+                let ([a, b, c], [d, e, f]) = (numbers::<R>(i as u32, k), numbers::<R>(i as u32 + 100, k));
+                let ray = lights.emit(Which { light: 0, part: k % parts }, [a, b, d, e], scene);
                 // down through the disk
                 let at = ray.direction.mul_add(-ray.origin.y / ray.direction.y, ray.origin);
                 let hits = ray.direction.y.lt(R::lit(0.0)) & ray.origin.y.gt(R::lit(0.0)) & at.length().lt(radius);
-                add(&mut rays, ray.weight.keep(hits) * R::lit(f64::from(parts)));
-                let disk = etendue::warp::ConcentricDisk.sample(Vec2::new(c, f));
-                let at = lights.at(Receiver {
-                    point: Vec3::new(disk.x * radius, R::lit(0.0), disk.y * radius),
-                    side: up(),
-                    on: None,
-                });
-                let s = at.sample([a, b, d]);
-                let cos = s.direction.y.greater(R::lit(0.0));
-                add(&mut samples, s.weight() * cos * radius * radius * R::lit(core::f64::consts::PI));
-            }
-            let n = f64::from(n);
-            let mean =
-                |[sum, squares]: [f64; 2]| [sum / n, ((squares / n - (sum / n) * (sum / n)).max(0.0) / n).sqrt()];
-            agree(mean(rays), mean(samples), &format!("light {i}"));
+                let disk = etendue::warp::ConcentricDisk.sample(Vec2::new(c, f)) * radius;
+                let point = Vec3::new(disk.x, R::lit(0.0), disk.y);
+                let s = lights.at(Receiver { point, side: up(), on: None }).sample([a, b, d]);
+                let irradiance = s.weight() * s.direction.y.greater(R::lit(0.0));
+                let power = irradiance * radius * radius * R::lit(core::f64::consts::PI);
+                [ray.weight.keep(hits) * R::lit(f64::from(parts)), power].map(|x| x.lane_f64(0))
+            });
+            let both: Vec<_> = samples.collect();
+            let [rays, samples] = [0, 1].map(|which| mean(both.iter().map(|pair| pair[which])));
+            agree(rays, samples, &format!("light {i}"));
             assert!(rays[0] > 0.0, "light {i}");
         }
     }
@@ -294,17 +285,13 @@ fn pdfs_integrate_to_1() {
         .zip(0..)
         .flat_map(|(_, light)| (0..if light == 9 { 5 } else { 1 }).map(move |part| Which { light, part }));
     let parts: Vec<Which> = parts.collect();
-    let (mut sum, mut squares, count) = (0.0, 0.0, cases(40_000_u32, 400_000));
-    for i in 0..count {
+    let [mean, error] = mean((0..cases(40_000, 400_000)).map(|i| {
         let w: V<f64> = UniformSphere.sample(Independent::new(2).pair(0, i, 0));
-        let x: f64 = parts.iter().map(|which| at.pdf(*which, w)).sum::<f64>() * 4.0 * std::f64::consts::PI;
-        sum += x;
-        squares += x * x;
-    }
-    let (n, mean) = (f64::from(count), sum / f64::from(count));
+        parts.iter().map(|which| at.pdf(*which, w)).sum::<f64>() * 4.0 * std::f64::consts::PI
+    }));
     let draws = 200_000;
     let deltas = (0..draws).filter(|&i| at.sample(numbers(8, i)).delta).count() as f64 / f64::from(draws);
-    let error = ((squares / n - mean * mean) / n + deltas / f64::from(draws)).sqrt();
+    let error = error.hypot((deltas / f64::from(draws)).sqrt());
     agree([mean + deltas, error], [1.0, 0.0], "the integral");
     assert!(deltas > 0.02 && error < 0.02, "{deltas} {error}");
 }

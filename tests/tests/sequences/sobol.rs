@@ -1,104 +1,15 @@
-//! Point sets: they are the nets and strata that they claim to be, at every width, and reduce the variance as expected.
+//! What Sobol's points in two dimensions are worth, and how pixels and dimensions share them.
 
-use etendue::sequence::{Independent, OwenSobol, Sequence, Stratified, ZOrder, ZOrderIndex};
+use super::nets::position;
+use super::point;
+use etendue::sequence::{Independent, OwenSobol, Sequence, Stratified, ZOrder};
 use etendue::{Real, Uint, Vec2};
 use etendue_judge::generators::AlongCurve;
 use etendue_judge::stats;
 use etendue_judge::tolerances::SIGNIFICANCE;
 use etendue_oracle::tier::cases;
 
-/// The position of a pixel along the Z-order curve.
-fn position(x: u32, y: u32) -> u32 {
-    (0..16).map(|bit| (x >> bit & 1) << (2 * bit) | (y >> bit & 1) << (2 * bit + 1)).sum()
-}
-fn point(sequence: &impl Sequence, pixel: u32, sample: u32, dimension: u32) -> [f64; 2] {
-    let u: Vec2<f64> = sequence.pair(pixel, sample, dimension);
-    [u.x, u.y]
-}
-
-/// Whether every box of 2⁻ᵃ × 2ᵃ⁻ᵐ holds one of the 2ᵐ points: the first a for which one does not, or none.
-fn failed_shape(points: &[[f64; 2]]) -> Option<u32> {
-    let m = points.len().ilog2();
-    assert_eq!(points.len(), 1 << m);
-    (0..=m).find(|&a| {
-        let mut seen = vec![false; points.len()];
-        for [x, y] in points {
-            let (column, row) = ((x * f64::from(1_u32 << a)) as usize, (y * f64::from(1_u32 << (m - a))) as usize);
-            seen[column << (m - a) | row] = true;
-        }
-        seen.contains(&false)
-    })
-}
-
-#[test]
-fn owen_sobol_is_a_net() {
-    for m in 0..=14 {
-        for (scramble, pixel, dimension) in [(1, 0, 0), (1, 1, 0), (2, 12_345, 7), (3, u32::MAX, u32::MAX)] {
-            let sobol = OwenSobol::new(scramble);
-            // the first block, one among the first 2¹⁶ samples, two beyond, and the last
-            for first in [0, 3 << m, 65_536 + (5 << m), 0x8765_4000, u32::MAX - ((1 << m) - 1)] {
-                let points: Vec<_> = (0..1 << m).map(|i| point(&sobol, pixel, first + i, dimension)).collect();
-                assert_eq!(failed_shape(&points), None, "2^{m} points from {first}, pixel {pixel}");
-            }
-        }
-    }
-    // as fine as the grid of u resolves: 2²⁰ points in one scramble
-    let points: Vec<_> = (0..1 << 20).map(|i| point(&OwenSobol::new(9), 4, i, 2)).collect();
-    assert_eq!(failed_shape(&points), None, "2^20 points");
-}
-
-#[test]
-fn net_check_can_fail() {
-    for (name, points) in [
-        ("independent", (0..16).map(|i| point(&Independent::new(1), 0, i, 0)).collect::<Vec<_>>()),
-        ("jitter", (0..16).map(|i| point(&Stratified::new(1, 16), 0, i, 0)).collect()),
-        ("unaligned", (2..18).map(|i| point(&OwenSobol::new(1), 0, i, 0)).collect()),
-        ("two pixels", (0..16).map(|i| point(&OwenSobol::new(1), i / 8, i, 0)).collect()),
-    ] {
-        assert!(failed_shape(&points).is_some(), "{name}");
-    }
-}
-
-#[test]
-fn z_order_is_a_net_in_a_pixel_and_over_squares() {
-    for samples in [1, 2, 3, 4, 8, 16, 32] {
-        let z = AlongCurve(ZOrder::new(5, samples));
-        let held = z.0.samples();
-        assert_eq!(held, samples.next_power_of_two());
-        for dimension in [0, 1, 6] {
-            for [x0, y0, side] in [[0, 0, 1], [3, 5, 1], [6, 4, 2], [24, 40, 8], [4096, 8192, 16]] {
-                // the first net of a pixel, and later ones
-                for replicate in [0, 1, 1000] {
-                    let mut points = Vec::new();
-                    for y in y0..y0 + side {
-                        for x in x0..x0 + side {
-                            let pixel = position(x, y);
-                            points.extend((0..held).map(|i| point(&z, pixel, replicate * held + i, dimension)));
-                        }
-                    }
-                    assert_eq!(failed_shape(&points), None, "{samples} samples, {side}² pixels, dimension {dimension}");
-                }
-            }
-        }
-    }
-    // 2³¹ samples in a pixel: the shift must not become 32
-    let points: Vec<_> = (0..1024).map(|i| point(&AlongCurve(ZOrder::new(5, u32::MAX)), 7, (1 << 30) + i, 0)).collect();
-    assert_eq!(failed_shape(&points), None);
-    // one sample in a pixel: all 32 bits belong to the pixel
-    let points: Vec<_> = (0..1024).map(|i| point(&AlongCurve(ZOrder::new(5, 0)), (1 << 31) + i, 0, 0)).collect();
-    assert_eq!(failed_shape(&points), None);
-}
-
 /// The base-4 digits take all 24 orders, nearly equally often; nested permutations in base 2 would only take 8.
-#[test]
-fn z_order_index_is_the_position_along_the_curve() {
-    let z = ZOrder::new(3, 4);
-    for (x, y) in [(0, 0), (1, 0), (0, 1), (5, 6), (255, 3), (65_535, 65_535), (40_000, 1_234)] {
-        let (by_index, by_position) = (ZOrderIndex::new(x, y), ZOrderIndex::from_position(position(x, y)));
-        assert_eq!(z.pair::<f32>(by_index, 1, 0), z.pair(by_position, 1, 0), "{x}, {y}");
-    }
-}
-
 #[test]
 fn z_order_permutes_digits_in_every_way() {
     for samples in [1, 2, 4] {
@@ -168,7 +79,7 @@ fn low_frequencies(sequence: impl Fn(u64) -> Box<dyn Fn([u32; 2], u32) -> [f64; 
 
 /// Errors of neighbours cancel, which leaves blue noise; the same points assigned to pixels independently leave white noise.
 #[test]
-fn z_order_leaves_blue_noise() {
+fn blue_noise_of_z_order() {
     let smooth = |[x, y]: [f64; 2]| (-3.0 * (x * x + y)).exp();
     let edge = |[x, y]: [f64; 2]| f64::from(u8::from(0.6 * x + 0.8 * y < 0.6));
     for (name, f, most) in [("smooth", smooth as fn(_) -> _, 0.15), ("edge", edge, 0.45)] {
@@ -190,44 +101,6 @@ fn z_order_leaves_blue_noise() {
         // 32 images of 196 frequencies: a standard error of 1.3 %
         assert!((white - 1.0).abs() < 0.06 && blue < most, "{name}: {blue} {white}");
     }
-}
-
-/// One sample of each of many pixels, seeds or dimensions: they are uniform and mutually independent.
-fn uniform_over(name: &str, sequence: impl Fn(u32) -> [f64; 2]) {
-    const SIDE: usize = 32;
-    let mut cells = vec![0_u64; SIDE * SIDE];
-    let mut axes = [vec![0_u64; 4096], vec![0_u64; 4096]];
-    let mut successive = Vec::new();
-    let mut last = [0.0; 2];
-    for i in 0..200_000 {
-        let [x, y] = sequence(i);
-        cells[(x * SIDE as f64) as usize * SIDE + (y * SIDE as f64) as usize] += 1;
-        axes[0][(x * 4096.0) as usize] += 1;
-        axes[1][(y * 4096.0) as usize] += 1;
-        successive.extend([(x, y), (last[0], x), (last[1], y), (last[1], x)]);
-        last = [x, y];
-    }
-    for p in [&cells, &axes[0], &axes[1]].map(|observed| stats::uniform(observed)) {
-        assert!(p > SIGNIFICANCE, "{name}: p = {p}");
-    }
-    for k in 0..4 {
-        let pairs: Vec<_> = successive.iter().copied().skip(k).step_by(4).collect();
-        let p = stats::two_sided(stats::correlation(&pairs) * (pairs.len() as f64).sqrt());
-        assert!(p > SIGNIFICANCE, "{name}: correlation {k}, p = {p}");
-    }
-}
-
-#[test]
-fn each_point_is_uniform_over_pixels_dimensions_and_seeds() {
-    let sobol = OwenSobol::new(1);
-    for sample in [0, 1, 5, 70_000] {
-        uniform_over("sobol, pixels", |i| point(&sobol, i, sample, 0));
-        uniform_over("sobol, dimensions", |i| point(&sobol, 3, sample, i));
-        uniform_over("sobol, seeds", |i| point(&OwenSobol::new(u64::from(i)), 3, sample, 1));
-    }
-    uniform_over("z-order, seeds", |i| point(&AlongCurve(ZOrder::new(u64::from(i), 4)), 1000, 3, 1));
-    uniform_over("z-order, dimensions", |i| point(&AlongCurve(ZOrder::new(1, 4)), 1000, 3, i));
-    uniform_over("z-order, tiles", |i| point(&AlongCurve(ZOrder::new(1, 1 << 31)), 2 * i, 3, 0));
 }
 
 /// Rank, among the 24 permutations of four, of the one from the order of x in one dimension to that in the other.

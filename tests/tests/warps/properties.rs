@@ -67,7 +67,7 @@ fn all<S: Fixture>(warp: &str, cases: Vec<Case<S>>, random: usize) {
 }
 
 use LightShape::{Parallelogram, Rectangle, Triangle};
-use Measure::SolidAngle;
+use Measure::{ProjectedSolidAngle, SolidAngle};
 
 /// A test for each warp.
 macro_rules! tests {
@@ -84,25 +84,32 @@ tests! {
     projected_polygon_of_every_size Seen 40 = generators::projected_pentagons_of_every_size(2, 19);
 }
 
-/// Points on a vertex, on an edge and in the plane; on and in spheres. If nothing is visible, the pdf is 0.
+/// Points on a vertex, on an edge and in the plane of flat shapes; shapes below the horizon or without area; points on and in spheres. If
+/// nothing is visible, the pdf is 0.
 #[test]
 fn contact() {
-    let (o, x, y) = ([0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+    let (o, x, y, z) = ([0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+    let plane = [
+        [o, x, y],
+        [[-0.5, 0.0, 0.0], x, [0.5, 1.0, 0.0]],
+        [[1.0, 1.0, 0.0], x, y],
+        [[-1.0, -1.0, 0.0], [3.0, 0.0, 0.0], [1.0, 3.0, 0.0]],
+        [o, [1.0, 0.0, 1.0], [0.0, 1.0, 1.0]],
+        [x, y, [0.3, 0.4, 0.0]],
+        // without area
+        [z, o, [1.0, 0.0, -1.0]],
+        [z, [0.5, 0.0, 0.0], x],
+    ];
+    let low = [[[1.0, 0.0, -1.0], [0.0, 1.0, 0.3], [0.3, 0.0, -1.0]], [x, y, [0.3, 0.0, -1.0]]];
     for u in generators::square(20, 6) {
-        // on a vertex, on an edge, in the plane outside and inside, without area
-        for corners in [
-            [o, x, y],
-            [[-0.5, 0.0, 0.0], [0.5, 0.0, 0.0], y],
-            [[1.0, 1.0, 0.0], [2.0, 1.0, 0.0], [1.0, 2.0, 0.0]],
-            [[-1.0, -1.0, 0.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]],
-            [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0], x],
-            [[0.0, 0.0, 1.0], [0.5, 0.0, 1.0], [1.0, 0.0, 1.0]],
-        ] {
-            let edge = |k: usize| core::array::from_fn(|i| corners[k][i] - corners[0][i]);
-            let light = AreaLight::seen(Triangle, SolidAngle, [corners[0], edge(1), edge(2)], o);
-            properties::any_bits(&light, u);
-            let seen = AreaLight::prepare::<f32>(&[light]).sample(squares_of(&[u]));
-            assert!(seen.pdf == 0.0, "{light:?} {seen:?}");
+        for shape in [Triangle, Parallelogram] {
+            let above = [SolidAngle, ProjectedSolidAngle].into_iter().flat_map(|by| plane.map(|flat| (by, flat)));
+            for (by, flat) in above.chain(low.map(|flat| (ProjectedSolidAngle, flat))) {
+                let light = AreaLight::seen(shape, by, flat, z);
+                properties::any_bits(&light, u);
+                let seen = AreaLight::prepare::<f32>(&[light]).sample(squares_of(&[u]));
+                assert!(seen.pdf == 0.0, "{light:?} {seen:?}");
+            }
         }
         for (center, radius, omega) in
             [(o, 1.0, 4.0), (x, 1.0, 2.0), ([0.5, 0.0, 0.0], 1.0, 4.0), (x, 0.0, 0.0), (x, -1.0, 0.0)]

@@ -1,10 +1,10 @@
 //! The light that reaches a point: what blockers leave of a light's projected solid angle. It is exact up to the rounding of f64 where
 //! blockers are flat, or spheres that do not overlap, and otherwise a sum over points of the light.
 
-use super::random::{LATTICE, Random};
 use super::scene::{Form, Prepared};
 use crate::closed_forms::projected_cap;
 use crate::outline::{area_vector, clipped, lambert, solid_angle};
+use crate::random::{LATTICE, Random};
 use crate::vectors::{V3, along, basis, cross, dot, length, sub, unit};
 use crate::visible::{Shape, visible};
 use core::f64::consts::{PI, TAU};
@@ -147,9 +147,6 @@ impl<'a> SeenLight<'a> {
             Between::Nothing => self.all,
             Between::All => 0.0,
             Between::Shapes(blockers) => {
-                if let Some(left) = self.flat_left(&blockers) {
-                    return left;
-                }
                 let shape = match &self.outline {
                     Outline::Flat(above, ..) => Shape::Polygon(above.clone()),
                     Outline::Sphere(c, radius, ..) => Shape::Sphere(*c, *radius),
@@ -161,43 +158,6 @@ impl<'a> SeenLight<'a> {
             }
             Between::Segments => self.sampled(count, random),
         }
-    }
-    /// What flat blockers leave of a flat light: each is subtracted from the pieces that the others have left. `None` if something is not flat.
-    fn flat_left(&self, blockers: &[Shape]) -> Option<f64> {
-        let Outline::Flat(above, towards, front) = &self.outline else { return None };
-        let mut pieces = vec![above.clone()];
-        for blocker in blockers {
-            let Shape::Polygon(corners) = blocker else { return None };
-            // only what is before the light
-            let corners = clipped(corners, *towards, *front);
-            let Some(&first) = corners.first() else { continue };
-            let turn = dot(area_vector(&corners), first).signum();
-            let edges = corners.iter().zip(corners.iter().cycle().skip(1));
-            let planes: Vec<V3> = edges.map(|(&a, &b)| cross(a, sub(b, a)).map(|x| x * turn)).collect();
-            let mut left = Vec::with_capacity(pieces.len() + 3);
-            for piece in pieces {
-                let kept = left.len();
-                let mut inner = Vec::new();
-                for plane in &planes {
-                    let from = if inner.is_empty() { &piece } else { &inner };
-                    if from.iter().all(|v| dot(*plane, *v) >= 0.0) {
-                        continue;
-                    }
-                    let within = clipped(from, *plane, 0.0);
-                    if within.is_empty() {
-                        // nothing of the piece is hidden, so it stays whole
-                        left.truncate(kept);
-                        left.push(piece.clone());
-                        break;
-                    }
-                    left.push(clipped(from, plane.map(|x| -x), 0.0));
-                    inner = within;
-                }
-            }
-            pieces = left;
-        }
-        let sum: f64 = pieces.iter().filter(|piece| piece.len() > 2).map(|piece| lambert(piece, self.at.normal)).sum();
-        Some(sum.clamp(0.0, self.all))
     }
     pub(super) fn sampled(&self, count: usize, random: &mut Random) -> f64 {
         let points = self.points(count, random);

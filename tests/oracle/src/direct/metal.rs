@@ -22,16 +22,18 @@ pub(super) fn brdf(finish: Finish, view: V3, light: V3, n: V3) -> f64 {
     match finish {
         Finish::Diffuse(albedo) => albedo / PI,
         Finish::Mirror(_) => 0.0,
-        Finish::Metal { eta, k, alpha } => fresnel(cos, eta, k) * microfacets(view, light, half, n, alpha),
+        Finish::Metal { eta, k, alpha } => fresnel(cos, eta, k) * microfacets(view, light, n, alpha),
         Finish::Coat { albedo, reflectance, alpha } => {
             let part = reflectance + (1.0 - reflectance) * (1.0 - cos).powi(5);
-            part * microfacets(view, light, half, n, alpha) + (1.0 - part) * albedo / PI
+            part * microfacets(view, light, n, alpha) + (1.0 - part) * albedo / PI
         }
     }
 }
 
-/// The BRDF of microfacets that reflect all light.
-fn microfacets(view: V3, light: V3, half: V3, n: V3, alpha: f64) -> f64 {
+/// The BRDF of microfacets by GGX that reflect all light, with shadowing and masking that is correlated by height, between unit vectors.
+#[must_use]
+pub fn microfacets(view: V3, light: V3, n: V3, alpha: f64) -> f64 {
+    let half = unit(sub(view, light.map(|x| -x)));
     let (i, o, m) = (dot(view, n), dot(light, n), dot(half, n));
     if i <= 0.0 || o <= 0.0 || m <= 0.0 {
         return 0.0;

@@ -1,6 +1,6 @@
 //! Lights without a surface: points, cones, parallel light and skies.
 
-use super::random::{LATTICE, Random};
+use crate::random::{LATTICE, Random};
 use crate::vectors::{V3, along, cross, dot, length, sub, unit};
 use core::f64::consts::{FRAC_PI_4, PI, TAU};
 

@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 use etendue::light::{Portal, PortalEnvironment, PortalTable};
 use etendue_judge::generators::Random;
-use etendue_oracle::{V3, cross, dot, length, sub, wide};
+use etendue_oracle::{V3, add, cross, dot, length, narrow, sub, times, wide};
 
 /// A parallelogram with the texels of its map.
 #[derive(Clone)]
@@ -15,16 +15,8 @@ pub(crate) struct Opening {
     pub(crate) width: usize,
 }
 
-pub(crate) fn add(a: V3, b: V3) -> V3 {
-    core::array::from_fn(|k| a[k] + b[k])
-}
-pub(crate) fn scale(v: V3, by: f64) -> V3 {
-    v.map(|x| x * by)
-}
-
 impl Opening {
     pub(crate) fn new(random: &mut Random, corner: V3, s: V3, t: V3, [width, height]: [usize; 2]) -> Self {
-        let narrow = |v: V3| v.map(|x| x as f32);
         let weights = (0..width * height)
             .map(|i| match i % 7 {
                 0 => 0.0,
@@ -46,7 +38,7 @@ impl Opening {
         if ahead <= 0.0 || toward <= 0.0 {
             return None;
         }
-        let at = sub(add(p, scale(w, ahead / toward)), wide(self.corner));
+        let at = sub(add(p, times(w, ahead / toward)), wide(self.corner));
         let square = dot(n, n);
         Some([dot(cross(at, t), n) / square, dot(cross(s, at), n) / square])
     }
@@ -100,11 +92,11 @@ impl Opening {
         // by differences of the map in two directions of the tangent plane
         let a = if w[0].abs() < 0.6 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
         let u = cross(w, a);
-        let u = scale(u, 1.0 / length(u));
+        let u = times(u, 1.0 / length(u));
         let v = cross(w, u);
         let e = 1e-5;
         let difference = |d: V3| {
-            let [a, b] = [e, -e].map(|e| self.place(add(w, scale(d, e))));
+            let [a, b] = [e, -e].map(|e| self.place(add(w, times(d, e))));
             [(a[0] - b[0]) / (2.0 * e), (a[1] - b[1]) / (2.0 * e)]
         };
         let (a, b) = (difference(u), difference(v));

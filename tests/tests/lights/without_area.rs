@@ -1,19 +1,13 @@
-//! Lights: means against closed forms, points on the shape, lanes, scale, arguments of any bits.
+//! Lines, and lights without a surface: means against closed forms, and points on the line.
 
 use core::f64::consts::PI;
 use etendue::{
-    BilinearPatch, ConstantEnvironment, DirectionalLight, Disk, LightSample, LightSampler, Line, Parallelogram,
-    PointLight, Polygon, Rectangle, Sphere, SpotLight, Sun, Triangle, Vec2, Vec3,
+    ConstantEnvironment, DirectionalLight, LightSample, LightSampler, Line, PointLight, SpotLight, Sun, Vec2, Vec3,
 };
 use etendue_judge::generators::Random;
 use etendue_judge::packets::Coordinates;
 use etendue_oracle::{V3, along, basis, cross, dot, gauss_legendre, length, narrow, sub, unit};
 
-/// Mean of f over an n × n grid of `u`.
-fn mean(n: usize, f: impl Fn(Vec2<f64>) -> f64) -> f64 {
-    let at = |i: usize| (i as f64 + 0.5) / n as f64;
-    (0..n * n).map(|i| f(Vec2::new(at(i % n), at(i / n)))).sum::<f64>() / (n * n) as f64
-}
 /// Irradiance of one sample, where the radiance is 1 on the emitting side.
 fn irradiance(s: &LightSample<f64>, n: V3) -> f64 {
     let cos = dot(s.direction.at(0), n).max(0.0);
@@ -21,46 +15,12 @@ fn irradiance(s: &LightSample<f64>, n: V3) -> f64 {
 }
 /// Mean irradiance of samples from an n × n grid of `u`.
 fn flux(n: usize, sampler: &dyn LightSampler<f64>, normal: V3) -> f64 {
-    mean(n, |u| irradiance(&sampler.sample(u), normal))
+    let at = |i: usize| (i as f64 + 0.5) / n as f64;
+    let of = |i: usize| irradiance(&sampler.sample(Vec2::new(at(i % n), at(i / n))), normal);
+    (0..n * n).map(of).sum::<f64>() / (n * n) as f64
 }
 fn origin() -> Vec3<f64> {
     Vec3::new(0.0, 0.0, 0.0)
-}
-
-/// The area of each light that is sampled by it, against closed forms, and the mean of what its samples are worth.
-#[test]
-fn areas_are_those_of_the_shapes() {
-    fn check(name: &str, own: f64, sampler: &dyn LightSampler<f64>, area: f64) {
-        // nine Gauss points measure a twisted patch
-        assert!((own / area - 1.0).abs() < 2e-5, "{name}: {own} is not {area}");
-        // an area is to the solid angle as the square of the distance to the cosine
-        let worth = mean(64, |u| {
-            let s = sampler.sample(u);
-            s.distance * s.distance / (s.pdf * s.direction.dot(s.normal).abs())
-        });
-        assert!((worth / area - 1.0).abs() < 2e-5, "{name}: samples are worth {worth}, not {area}");
-    }
-    let place = Vec3::lit([0.3, -0.2, 0.1]);
-    let [p, u, v, w] = [[1.0, 0.5, 2.0], [2.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]].map(Vec3::<f64>::lit);
-    let triangle = Triangle::new(p, p + u, p + w).by_area(place);
-    check("triangle", triangle.area(), &triangle, 1.0);
-    let parallelogram = Parallelogram::new(p, u, w).by_area(place);
-    check("parallelogram", parallelogram.area(), &parallelogram, 2.0);
-    let rectangle = Rectangle::new(p, u, v).by_area(place);
-    check("rectangle", rectangle.area(), &rectangle, 2.0);
-    let polygon = Polygon::new([p, p + u, p + w, p + v, p + v * 0.5]).by_area(place);
-    check("polygon", polygon.area(), &polygon, 1.5);
-    let disk = Disk::new(p, Vec3::lit([0.0, 0.6, 0.8]), 0.5).by_area(place);
-    check("disk", disk.area(), &disk, 0.25 * PI);
-    let sphere = Sphere::new(p, 0.5).by_area(place);
-    check("sphere", sphere.area(), &sphere, PI);
-    let trapezium = BilinearPatch::new(p, u, v, w).by_area(place);
-    check("trapezium", trapezium.area(), &trapezium, 1.5);
-    // z = st over a square
-    let saddle = BilinearPatch::new(p, u * 0.5, v, Vec3::lit([1.0, 1.0, 1.0])).by_area(place);
-    let nodes = gauss_legendre::<20>();
-    let by_s = |s: f64| nodes.iter().map(|(t, weight)| weight * (1.0 + s * s + t * t).sqrt()).sum::<f64>();
-    check("saddle", saddle.area(), &saddle, nodes.iter().map(|&(s, weight)| weight * by_s(s)).sum());
 }
 
 /// Irradiance of a line of unit radiance and width: by Gauss and Legendre along it, clipped to the horizon.
@@ -89,40 +49,31 @@ fn lines_have_their_irradiance() {
         let (p, e, n) = (random.direction(), random.direction().map(|x| x * size), random.direction());
         let (line, truth) = (Line { start: p.into(), edge: e.into() }, line_irradiance(p, e, n));
         let total = line_irradiance(p, e, unit(p)) + truth;
-        let steps = 20_000;
-        let mean = |f: &dyn Fn(f64) -> LightSample<f64>| {
-            (0..steps).map(|k| irradiance(&f((f64::from(k) + 0.5) / f64::from(steps)), n)).sum::<f64>()
-                / f64::from(steps)
+        let sample = |sampler: &dyn LightSampler<f64>, u: f64| {
+            let s = sampler.sample(Vec2::new(u, 0.0));
+            let w = s.direction.at(0);
+            let off = length(cross(sub(w.map(|w| w * s.distance), p), unit(e)));
+            let sine = length(cross(w, unit(e)));
+            assert!(s.pdf == 0.0 || off < 1e-11 * s.distance / sine, "{i}: off the line by {off}");
+            s
         };
-        let by_length = mean(&|u| line.by_length(origin()).sample(Vec2::new(u, 0.0)));
-        assert!((by_length - truth).abs() < 1e-4 * total, "by length {i}: {by_length} for {truth}");
-        let by_angle = mean(&|u| line.by_angle(origin()).sample(Vec2::new(u, 0.0)));
-        assert!((by_angle - truth).abs() < 1e-6 * total, "by angle {i}: {by_angle} for {truth}");
+        let (by_length, by_angle) = (line.by_length(origin()), line.by_angle(origin()));
+        for (sampler, slack) in [(&by_length as &dyn LightSampler<f64>, 1e-4), (&by_angle, 1e-6)] {
+            let steps = 20_000;
+            let values = (0..steps).map(|k| irradiance(&sample(sampler, (f64::from(k) + 0.5) / f64::from(steps)), n));
+            let mean = values.sum::<f64>() / f64::from(steps);
+            assert!((mean - truth).abs() < slack * total, "{i}: {mean} for {truth}, {slack}");
+        }
+        let projected = line.by_projected_solid_angle(origin(), n.into());
         for k in 0..100 {
             let u = (f64::from(k) + random.unit_f64()) / 100.0;
-            let s = line.by_projected_solid_angle(origin(), n.into()).sample(Vec2::new(u, 0.0));
-            let e = irradiance(&s, n);
+            let s = sample(&projected, u);
             // at the ends of the range the cosine is a small difference
             let slack = 1e-12 / dot(s.direction.at(0), n).abs().max(1e-9);
+            let e = irradiance(&s, n);
             assert!((e - truth).abs() <= (1e-9 + slack) * truth, "projected {i}: {e} for {truth} at {u}");
-            // on the line, and the number comes back
-            for s in [
-                s,
-                line.by_angle(origin()).sample(Vec2::new(u, 0.0)),
-                line.by_length(origin()).sample(Vec2::new(u, 0.0)),
-            ] {
-                let x = sub(s.direction.at(0).map(|w| w * s.distance), p);
-                let off = length(cross(x, unit(e_of(&line))));
-                assert!(s.pdf == 0.0 || off < 1e-11 * s.distance / sine(&s, &line), "off the line by {off}");
-            }
         }
     }
-}
-fn e_of(line: &Line<f64>) -> V3 {
-    line.edge.at(0)
-}
-fn sine(s: &LightSample<f64>, line: &Line<f64>) -> f64 {
-    length(cross(s.direction.at(0), unit(e_of(line))))
 }
 
 #[test]
