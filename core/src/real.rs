@@ -226,8 +226,8 @@ pub trait Real:
         }
         let before = if mask.all() { None } else { Some(*what) };
         change(what);
-        if let Some(before) = before {
-            *what = T::blended(mask, *what, before);
+        if let Some(before) = &before {
+            what.take(!mask, before);
         }
     }
     /// Calls `step` while any of the masks is true in any lane, at most `most` times: it gets the numbers and the masks, and returns the next

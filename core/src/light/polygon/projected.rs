@@ -10,7 +10,7 @@ use crate::light::triangle::projected::sector::Sector;
 use crate::light::triangle::projected::zenith::{Search, Side, drop_narrow, sectors, surrounds};
 use crate::light::triangle::projected::{Given, LEAST_HEIGHT, ProjectedTriangle, ahead, area, lack, with_rest, within};
 use crate::math::ratio;
-use crate::real::{Mask, Real, blended, unit_interval};
+use crate::real::{Blend, Mask, Real, unit_interval};
 use crate::vector::double_word::{cross_dw, cross_sums, dot_dw, sum_dw, unit_normal};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
@@ -59,7 +59,17 @@ impl<R, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
 }
 
 lanewise_by_map!(ProjectedPolygon, N, ROOM);
-blended!(ProjectedPolygon [N, ROOM] { fan, plane, volume, projected, central });
+
+impl<R: Real, const N: usize, const ROOM: usize> Blend<R> for ProjectedPolygon<R, N, ROOM> {
+    #[inline(always)]
+    fn take(&mut self, mask: R::Mask, other: &Self) {
+        self.fan.iter_mut().zip(&other.fan).take(N - 2).for_each(|(own, other)| own.take(mask, other));
+        self.plane.take(mask, &other.plane);
+        self.volume.take(mask, &other.volume);
+        self.projected.take(mask, &other.projected);
+        self.central.take(mask, &other.central);
+    }
+}
 
 impl<R: Real> ProjectedParallelogram<R> {
     /// Prepares for a parallelogram with the corner `p` relative to the point and the edges `u` and `v` (in one unit of length), on a surface
@@ -172,9 +182,11 @@ impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
                 near = near & inside(triangle.pole2);
             }
         }
-        R::change_any(near, self, |this| {
-            let rounded = |[x, rest]: [R; 2]| (x + rest) * shrink;
-            let areas: [R; N] = core::array::from_fn(|i| rounded(area(long, ends[i], products[i])));
+        let rounded = |[x, rest]: [R; 2]| (x + rest) * shrink;
+        let areas = || core::array::from_fn(|i| rounded(area(long, ends[i], products[i])));
+        let areas: [R; N] = R::where_any(near, [zero; N], areas);
+        let central = near & surrounds(&areas, turn) & self.volume.abs().gt(zero);
+        R::change_any(central, self, |this| {
             let heights: [R; N] = core::array::from_fn(|i| {
                 let [z, more] = dot_dw(corners[i], long);
                 let z = rounded([z, more + rests[i].dot(long)]);
@@ -190,8 +202,7 @@ impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
                     heights: [heights[i], heights[next]],
                 }
             });
-            let central = surrounds(&sides, turn) & this.volume.abs().gt(zero);
-            R::change_any(near & central, this, |this| this.divide_about_zenith(&sides, unit, turn));
+            this.divide_about_zenith(&sides, unit, turn);
         });
     }
     /// Gives the triangles the sectors about the zenith.
