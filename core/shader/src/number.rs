@@ -166,10 +166,10 @@ impl Truth {
     }
 }
 
-/// What a branch chooses.
-fn branch<R: Real<Mask = Truth>, T: Blend<R>>(mask: Truth, some: T, none: T) -> T {
+/// Lets a closure choose what a branch has computed.
+fn branch<T>(mask: Truth, choose: impl FnOnce() -> T) -> T {
     let from = with(|graph| graph.nodes().len());
-    let chosen = T::blended(mask, some, none);
+    let chosen = choose();
     with(|graph| graph.branch(mask.0, from));
     chosen
 }
@@ -273,14 +273,20 @@ macro_rules! real {
                 Truth(add(Op::WordAny, &[value.0]))
             }
             fn where_any<T: Blend<Self>>(mask: Truth, none: T, some: impl FnOnce() -> T) -> T {
-                if with(|graph| graph.truth(mask.0)) == Some(false) { none } else { branch(mask, some(), none) }
+                if with(|graph| graph.truth(mask.0)) == Some(false) { return none; }
+                let some = some();
+                branch(mask, || T::blended(mask, some, none))
             }
-            fn change_any<T: Blend<Self>>(mask: Truth, what: &mut T, change: impl FnOnce(&mut T)) {
-                let before = *what;
-                *what = Self::where_any(mask, before, || {
-                    change(what);
-                    *what
-                });
+            fn take_any<T, S>(
+                mask: Truth,
+                what: &mut T,
+                some: impl FnOnce(&T) -> S,
+                take: impl FnOnce(&mut T, Truth, &S),
+            ) {
+                if with(|graph| graph.truth(mask.0)) != Some(false) {
+                    let some = some(what);
+                    branch(mask, || take(what, mask, &some));
+                }
             }
             fn iterate<const N: usize, const M: usize>(
                 most: usize,

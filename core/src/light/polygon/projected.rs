@@ -5,7 +5,7 @@ use crate::lanewise::lanewise_by_map;
 use crate::light::direction::{DirectionSample, to_unit};
 use crate::light::seen::ProjectedShape;
 use crate::light::triangle::projected::found::{after, edge};
-use crate::light::triangle::projected::piece::narrowest;
+use crate::light::triangle::projected::piece::{Piece, narrowest};
 use crate::light::triangle::projected::sector::Sector;
 use crate::light::triangle::projected::zenith::{Search, Side, drop_narrow, sectors, surrounds};
 use crate::light::triangle::projected::{Given, LEAST_HEIGHT, ProjectedTriangle, ahead, area, lack, with_rest, within};
@@ -59,17 +59,6 @@ impl<R, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
 }
 
 lanewise_by_map!(ProjectedPolygon, N, ROOM);
-
-impl<R: Real, const N: usize, const ROOM: usize> Blend<R> for ProjectedPolygon<R, N, ROOM> {
-    #[inline(always)]
-    fn take(&mut self, mask: R::Mask, other: &Self) {
-        self.fan.iter_mut().zip(&other.fan).take(N - 2).for_each(|(own, other)| own.take(mask, other));
-        self.plane.take(mask, &other.plane);
-        self.volume.take(mask, &other.volume);
-        self.projected.take(mask, &other.projected);
-        self.central.take(mask, &other.central);
-    }
-}
 
 impl<R: Real> ProjectedParallelogram<R> {
     /// Prepares for a parallelogram with the corner `p` relative to the point and the edges `u` and `v` (in one unit of length), on a surface
@@ -186,7 +175,7 @@ impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
         let areas = || core::array::from_fn(|i| rounded(area(long, ends[i], products[i])));
         let areas: [R; N] = R::where_any(near, [zero; N], areas);
         let central = near & surrounds(&areas, turn) & self.volume.abs().gt(zero);
-        R::change_any(central, self, |this| {
+        let some = |this: &Self| {
             let heights: [R; N] = core::array::from_fn(|i| {
                 let [z, more] = dot_dw(corners[i], long);
                 let z = rounded([z, more + rests[i].dot(long)]);
@@ -202,24 +191,39 @@ impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
                     heights: [heights[i], heights[next]],
                 }
             });
-            this.divide_about_zenith(&sides, unit, turn);
+            this.divided_about_zenith(&sides, unit, turn)
+        };
+        R::take_any(central, self, some, |this, central, (pieces, plane, volume)| {
+            let mut sum = zero;
+            for (triangle, [first, second]) in this.fan[..Self::TRIANGLES].iter_mut().zip(pieces) {
+                triangle.first.take(central, first);
+                triangle.second.take(central, second);
+                triangle.central.take(central, &zero);
+                let area = first.area + second.area;
+                triangle.projected.take(central, &area);
+                triangle.plane.take(central, plane);
+                triangle.volume.take(central, volume);
+                sum += area;
+            }
+            this.projected.take(central, &sum);
+            this.central.take(central, &one);
         });
     }
-    /// Gives the triangles the sectors about the zenith.
+    /// The sectors about the zenith of each triangle, and the plane and the volume of the largest: a sector reaches beyond its triangle, which may
+    /// even have no area.
     #[inline(always)]
-    fn divide_about_zenith(&mut self, sides: &[Side<R>; N], unit: Vec3<R>, turn: R) {
-        let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        let (whole, mut sum) = (self.projected, zero);
-        for (i, triangle) in self.fan[..Self::TRIANGLES].iter_mut().enumerate() {
-            let mut pieces = sectors(sides, i, unit, turn);
-            drop_narrow(&mut pieces, whole);
-            triangle.projected = pieces[0].area + pieces[1].area;
-            [triangle.first, triangle.second] = pieces;
-            triangle.central = zero;
-            sum += triangle.projected;
+    fn divided_about_zenith(
+        &self,
+        sides: &[Side<R>; N],
+        unit: Vec3<R>,
+        turn: R,
+    ) -> ([[Piece<R>; 2]; ROOM], Vec3<R>, R) {
+        let mut pieces = [[Piece::default(); 2]; ROOM];
+        for (i, pieces) in pieces[..Self::TRIANGLES].iter_mut().enumerate() {
+            *pieces = sectors(sides, i, unit, turn);
+            drop_narrow(pieces, self.projected);
         }
-        // a sector reaches beyond its triangle, which may even have no area: all take the plane of the largest
-        let (mut plane, mut volume, mut most) = (self.fan[0].plane, self.fan[0].volume, zero);
+        let (mut plane, mut volume, mut most) = (self.fan[0].plane, self.fan[0].volume, R::lit(0.0));
         for triangle in &self.fan[..Self::TRIANGLES] {
             let size = triangle.plane.length_squared();
             let larger = size.gt(most);
@@ -227,10 +231,7 @@ impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
             volume = R::blend(larger, triangle.volume, volume);
             most = R::blend(larger, size, most);
         }
-        for triangle in &mut self.fan[..Self::TRIANGLES] {
-            (triangle.plane, triangle.volume) = (plane, volume);
-        }
-        (self.projected, self.central) = (sum, one);
+        (pieces, plane, volume)
     }
     /// The sector for u₀, the share of it before the azimuth, counted from its apex, and the number of its triangle.
     #[inline(always)]
