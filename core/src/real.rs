@@ -218,8 +218,8 @@ pub trait Real:
     fn where_any<T: Blend<Self>>(mask: Self::Mask, none: T, some: impl FnOnce() -> T) -> T {
         if mask.any() { T::blended(mask, some(), none) } else { none }
     }
-    /// [`where_any`](Real::where_any) for what is too large to be copied: where any lane needs it, `take` blends what `some` has computed into
-    /// `what` by the mask, and does nothing else.
+    /// [`where_any`](Real::where_any) for what is too large to be copied: where any lane needs it, `take` blends into
+    /// `what`, by the mask, what `some` has computed, and reads nothing that it has blended.
     #[inline(always)]
     fn take_any<T, S>(
         mask: Self::Mask,

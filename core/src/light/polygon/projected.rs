@@ -5,7 +5,7 @@ use crate::lanewise::lanewise_by_map;
 use crate::light::direction::{DirectionSample, to_unit};
 use crate::light::seen::ProjectedShape;
 use crate::light::triangle::projected::found::{after, edge};
-use crate::light::triangle::projected::piece::{Piece, narrowest};
+use crate::light::triangle::projected::piece::narrowest;
 use crate::light::triangle::projected::sector::Sector;
 use crate::light::triangle::projected::zenith::{Search, Side, drop_narrow, sectors, surrounds};
 use crate::light::triangle::projected::{Given, LEAST_HEIGHT, ProjectedTriangle, ahead, area, lack, with_rest, within};
@@ -191,11 +191,15 @@ impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
                     heights: [heights[i], heights[next]],
                 }
             });
-            this.divided_about_zenith(&sides, unit, turn)
+            let (plane, volume) = this.largest();
+            (sides, plane, volume, this.projected)
         };
-        R::take_any(central, self, some, |this, central, (pieces, plane, volume)| {
+        R::take_any(central, self, some, |this, central, (sides, plane, volume, whole)| {
             let mut sum = zero;
-            for (triangle, [first, second]) in this.fan[..Self::TRIANGLES].iter_mut().zip(pieces) {
+            for (i, triangle) in this.fan[..Self::TRIANGLES].iter_mut().enumerate() {
+                let mut pieces = sectors(sides, i, unit, turn);
+                drop_narrow(&mut pieces, *whole);
+                let [first, second] = &pieces;
                 triangle.first.take(central, first);
                 triangle.second.take(central, second);
                 triangle.central.take(central, &zero);
@@ -209,20 +213,9 @@ impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
             this.central.take(central, &one);
         });
     }
-    /// The sectors about the zenith of each triangle, and the plane and the volume of the largest: a sector reaches beyond its triangle, which may
-    /// even have no area.
+    /// The plane and the volume of the largest triangle: a sector about the zenith reaches beyond its own, which may even have no area.
     #[inline(always)]
-    fn divided_about_zenith(
-        &self,
-        sides: &[Side<R>; N],
-        unit: Vec3<R>,
-        turn: R,
-    ) -> ([[Piece<R>; 2]; ROOM], Vec3<R>, R) {
-        let mut pieces = [[Piece::default(); 2]; ROOM];
-        for (i, pieces) in pieces[..Self::TRIANGLES].iter_mut().enumerate() {
-            *pieces = sectors(sides, i, unit, turn);
-            drop_narrow(pieces, self.projected);
-        }
+    fn largest(&self) -> (Vec3<R>, R) {
         let (mut plane, mut volume, mut most) = (self.fan[0].plane, self.fan[0].volume, R::lit(0.0));
         for triangle in &self.fan[..Self::TRIANGLES] {
             let size = triangle.plane.length_squared();
@@ -231,7 +224,7 @@ impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
             volume = R::blend(larger, triangle.volume, volume);
             most = R::blend(larger, size, most);
         }
-        (pieces, plane, volume)
+        (plane, volume)
     }
     /// The sector for u₀, the share of it before the azimuth, counted from its apex, and the number of its triangle.
     #[inline(always)]
