@@ -11,19 +11,14 @@ _Field = Literal["direction", "distance", "pdf", "weight", "normal", "uv", "emit
 _Fields = _Field | _Sequence[_Field]
 
 __all__ = [
-    "AreaTriangle",
     "Bilinear",
-    "ConcentricDisk",
     "Cone",
-    "CosineHemisphere",
     "GgxVisibleNormals",
     "ImageEnvironment",
     "Independent",
     "JointSobol",
     "LightTree",
-    "LowDistortionTriangle",
     "NO_LIGHT",
-    "Octahedral",
     "OwenSobol",
     "PatchSurface",
     "Picture",
@@ -35,11 +30,18 @@ __all__ = [
     "Samples",
     "Sequence",
     "Stratified",
-    "UniformHemisphere",
-    "UniformSphere",
     "Warp",
     "__version__",
     "level",
+    # names of warps from the list of techniques: WRITE=1 cargo test -p etendue-tests bindings
+    "ConcentricDisk",
+    "UniformHemisphere",
+    "UniformSphere",
+    "CosineHemisphere",
+    "Octahedral",
+    "AreaTriangle",
+    "LowDistortionTriangle",
+    # names of warps end of what is from the list
     # lights from the list of techniques: WRITE=1 cargo test -p etendue-tests bindings
     "Sphere",
     "Triangle",
@@ -860,6 +862,7 @@ class Warp:
     def pdf(self, x: ArrayLike) -> _F32: ...
     def invert(self, x: ArrayLike) -> _F32: ...
 
+# warps from the list of techniques: WRITE=1 cargo test -p etendue-tests bindings
 @final
 class ConcentricDisk(Warp):
     def __new__(cls) -> ConcentricDisk: ...
@@ -887,6 +890,8 @@ class AreaTriangle(Warp):
 @final
 class LowDistortionTriangle(Warp):
     def __new__(cls) -> LowDistortionTriangle: ...
+
+# warps end of what is from the list
 
 @final
 class Cone(Warp):

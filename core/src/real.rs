@@ -218,16 +218,18 @@ pub trait Real:
     fn where_any<T: Blend<Self>>(mask: Self::Mask, none: T, some: impl FnOnce() -> T) -> T {
         if mask.any() { T::blended(mask, some(), none) } else { none }
     }
-    /// Lets `change` change something in the lanes where the mask is true: [`where_any`](Real::where_any) for what is too large to be copied.
+    /// [`where_any`](Real::where_any) for what is too large to be copied: where any lane needs it, `take` blends into
+    /// `what`, by the mask, what `some` has computed, and reads nothing that it has blended.
     #[inline(always)]
-    fn change_any<T: Blend<Self>>(mask: Self::Mask, what: &mut T, change: impl FnOnce(&mut T)) {
-        if !mask.any() {
-            return;
-        }
-        let before = if mask.all() { None } else { Some(*what) };
-        change(what);
-        if let Some(before) = before {
-            *what = T::blended(mask, *what, before);
+    fn take_any<T, S>(
+        mask: Self::Mask,
+        what: &mut T,
+        some: impl FnOnce(&T) -> S,
+        take: impl FnOnce(&mut T, Self::Mask, &S),
+    ) {
+        if mask.any() {
+            let computed = some(what);
+            take(what, mask, &computed);
         }
     }
     /// Calls `step` while any of the masks is true in any lane, at most `most` times: it gets the numbers and the masks, and returns the next

@@ -798,16 +798,22 @@ struct PortalEnvironment : EtenduePortalEnvironment {
     };
 #define ETENDUE_WARP(PREFIX, P) ETENDUE_WARP_METHODS(PREFIX, P, this ETENDUE_COMMA)
 
-// Points of the unit disk, by concentric squares.
+// warps from the list of techniques: WRITE=1 cargo test -p etendue-tests bindings
+// Points of the unit disk, uniform in area (pdf 1/pi), by concentric squares: keeps strata compact.
 ETENDUE_FIXED_WARP(ConcentricDisk, etendue_concentric_disk, 2)
-// Directions, uniform or in proportion to the cosine to +z.
+// Directions with z >= 0, uniform in solid angle: pdf 1/(2pi) per steradian.
 ETENDUE_FIXED_WARP(UniformHemisphere, etendue_uniform_hemisphere, 3)
+// Directions, uniform in solid angle: pdf 1/(4pi) per steradian.
 ETENDUE_FIXED_WARP(UniformSphere, etendue_uniform_sphere, 3)
+// Directions with z >= 0 and the pdf z/pi per steradian.
 ETENDUE_FIXED_WARP(CosineHemisphere, etendue_cosine_hemisphere, 3)
+// Directions, uniform in solid angle, by a nearly continuous map: pdf 1/(4pi) per steradian.
 ETENDUE_FIXED_WARP(Octahedral, etendue_octahedral, 3)
-// Barycentric coordinates of the second and third vertex of a triangle.
+// Barycentric coordinates of the second and third vertex of a triangle, uniform in area: pdf 2.
 ETENDUE_FIXED_WARP(AreaTriangle, etendue_area_triangle, 2)
+// Barycentric coordinates of the second and third vertex of a triangle, by a map that keeps strata compact: pdf 2.
 ETENDUE_FIXED_WARP(LowDistortionTriangle, etendue_low_distortion_triangle, 2)
+// warps end of what is from the list
 
 // Directions within an angle of +z, by 1 - cos of that angle.
 struct Cone : EtendueCone {

@@ -77,48 +77,62 @@ impl Warp {
     }
 }
 
+/// The class of a warp, of numbers that build it.
+macro_rules! class {
+    ($(#[$doc:meta])* $name:ident($($field:ident: $kind:expr),*) |$x:ident| $build:expr) => {
+        $(#[$doc])*
+        #[pyclass(module = "etendue", extends = Warp, frozen)]
+        pub(super) struct $name;
+        #[pymethods]
+        impl $name {
+            #[new]
+            fn new($($field: &Object<'_>),*) -> PyResult<PyClassInitializer<Self>> {
+                let $x = &numbers(&[$((stringify!($field), $kind, $field)),*])?[..];
+                Ok(PyClassInitializer::from(Warp { map: Box::new($build) }).add_subclass(Self))
+            }
+        }
+    };
+}
+/// The warps of the core's list that have no parameters.
+macro_rules! fixed {
+    ($($(#[$doc:meta])* $name:ident $([$packets:tt] = $struct:ident)?, $module:ident: $coordinates:literal;)+) => {
+        mod fixed {
+            use super::*;
+            $(fixed!(@ $(#[$doc])* #[doc = concat!("Points have ", $coordinates, " coordinates.")] $name $(, $packets)?);)+
+        }
+        fn add_fixed(module: &Bound<'_, PyModule>) -> PyResult<()> {
+            $(fixed!(+ module, $name $(, $packets)?);)+
+            Ok(())
+        }
+    };
+    (@ $(#[$doc:meta])* $name:ident) => {
+        class! { $(#[$doc])* $name() |_x| etendue::warp::$name }
+    };
+    (+ $module:ident, $name:ident) => {
+        $module.add_class::<fixed::$name>()?;
+    };
+    (@ $(#[$doc:meta])* $name:ident, $packets:tt) => {};
+    (+ $module:ident, $name:ident, $packets:tt) => {};
+}
+etendue::warps!(fixed! {});
+
 macro_rules! warps {
-    ($($(#[$doc:meta])* $name:ident($($field:ident: $kind:expr),*) |$x:ident| $build:expr;)+) => {
+    ($($(#[$doc:meta])* $name:ident $fields:tt |$x:ident| $build:expr;)+) => {
         mod classes {
             use super::*;
-            $($(#[$doc])*
-            #[pyclass(module = "etendue", extends = Warp, frozen)]
-            pub(super) struct $name;
-            #[pymethods]
-            impl $name {
-                #[new]
-                fn new($($field: &Object<'_>),*) -> PyResult<PyClassInitializer<Self>> {
-                    let $x = &numbers(&[$((stringify!($field), $kind, $field)),*])?[..];
-                    Ok(PyClassInitializer::from(Warp { map: Box::new($build) }).add_subclass(Self))
-                }
-            })+
+            $(class! { $(#[$doc])* $name $fields |$x| $build })+
         }
         /// Adds the warps to the module.
         pub(crate) fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
             module.add_class::<Warp>()?;
             $(module.add_class::<classes::$name>()?;)+
-            Ok(())
+            add_fixed(module)
         }
     };
 }
 use FieldKind::Number;
 const POINT: FieldKind = FieldKind::Row(3);
 warps! {
-    /// Points of the unit disk, uniform in area, by the map of concentric squares to rings: (2) to (2), pdf 1/π per unit area.
-    ConcentricDisk() |_x| etendue::warp::ConcentricDisk;
-    /// Directions with z ≥ 0, uniform in solid angle: (2) to (3), pdf 1/(2π) per steradian.
-    UniformHemisphere() |_x| etendue::warp::UniformHemisphere;
-    /// Directions of the whole sphere, uniform in solid angle, by z = 1 − 2u₀ and φ = 2πu₁: (2) to (3), pdf 1/(4π) per steradian.
-    UniformSphere() |_x| etendue::warp::UniformSphere;
-    /// Directions about +z in proportion to the cosine: (2) to (3), pdf z/π per steradian where z ≥ 0.
-    CosineHemisphere() |_x| etendue::warp::CosineHemisphere;
-    /// Directions of the whole sphere, uniform in solid angle, by an unfolded octahedron: (2) to (3), pdf 1/(4π) per steradian.
-    Octahedral() |_x| etendue::warp::Octahedral;
-    /// Barycentric coordinates (b₁, b₂) of a triangle, uniform in area, by b₀ = 1 − √u₀: (2) to (2), pdf 2 per unit of barycentric area.
-    AreaTriangle() |_x| etendue::warp::AreaTriangle;
-    /// Barycentric coordinates (b₁, b₂) of a triangle, uniform in area, by folding the square: (2) to (2), pdf 2 per unit of barycentric
-    /// area.
-    LowDistortionTriangle() |_x| etendue::warp::LowDistortionTriangle;
     /// Directions within an angle σ of +z, uniform in solid angle: (2) to (3), pdf 1/(2π(1 − cosσ)) per steradian. `one_minus_cos` is
     /// 1 − cosσ in [0, 2]; at 0 the pdf is 0.
     Cone(one_minus_cos: Number) |x| etendue::warp::Cone { one_minus_cos: x[0] };

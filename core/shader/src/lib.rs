@@ -35,7 +35,7 @@
 //! decimal numbers that every compiler reads as the same bits.
 //!
 //! # Branches
-//! In the core, [`Real::where_any`](etendue::Real::where_any) and [`Real::change_any`](etendue::Real::change_any) name a path that few calls
+//! In the core, [`Real::where_any`](etendue::Real::where_any) and [`Real::take_any`](etendue::Real::take_any) name a path that few calls
 //! need. Both sides are recorded, with what is selected then, and [`plan`] puts whatever nothing else uses into an `if`.
 //! [`Real::iterate`](etendue::Real::iterate) is a loop; other loops of the core have constant bounds, and are written out. `if mask.any()`
 //! cannot be recorded.

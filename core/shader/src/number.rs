@@ -75,6 +75,15 @@ macro_rules! binary {
 binary!(Truth: BitAnd bitand And BitOr bitor Or BitXor bitxor Xor);
 binary!(Word: BitAnd bitand WordAnd BitOr bitor WordOr BitXor bitxor WordXor);
 
+/// Methods that are one operation each: what they take and return, and which.
+macro_rules! operations {
+    ($($method:ident($($other:ident: $of:ty),*) -> $result:ident = $op:ident;)+) => {$(
+        fn $method(self $(, $other: $of)*) -> $result {
+            $result(add(Op::$op, &[self.0 $(, $other.0)*]))
+        }
+    )+};
+}
+
 impl Not for Truth {
     type Output = Self;
     fn not(self) -> Self {
@@ -116,26 +125,18 @@ impl Uint for Word {
         let known = with(|graph| graph.word([self.0][i]));
         known.expect("a routine asks for a lane of a counter that is not constant: it cannot be recorded")
     }
-    fn wrapping_add(self, other: Self) -> Self {
-        Self(add(Op::WordAdd, &[self.0, other.0]))
-    }
-    fn wrapping_sub(self, other: Self) -> Self {
-        Self(add(Op::WordSub, &[self.0, other.0]))
-    }
-    fn wrapping_mul(self, other: Self) -> Self {
-        Self(add(Op::WordMul, &[self.0, other.0]))
+    operations! {
+        wrapping_add(other: Self) -> Self = WordAdd;
+        wrapping_sub(other: Self) -> Self = WordSub;
+        wrapping_mul(other: Self) -> Self = WordMul;
+        reverse_bits() -> Self = WordReverse;
+        lt(other: Self) -> Self = WordLess;
     }
     fn shl(self, bits: u32) -> Self {
         Self(add(Op::WordShl(bits), &[self.0]))
     }
     fn shr(self, bits: u32) -> Self {
         Self(add(Op::WordShr(bits), &[self.0]))
-    }
-    fn reverse_bits(self) -> Self {
-        Self(add(Op::WordReverse, &[self.0]))
-    }
-    fn lt(self, other: Self) -> Self {
-        Self(add(Op::WordLess, &[self.0, other.0]))
     }
     fn any(self) -> bool {
         Truth(add(Op::WordAny, &[self.0])).any()
@@ -165,10 +166,10 @@ impl Truth {
     }
 }
 
-/// What a branch chooses.
-fn branch<R: Real<Mask = Truth>, T: Blend<R>>(mask: Truth, some: T, none: T) -> T {
+/// Lets a closure choose what a branch has computed.
+fn branch<T>(mask: Truth, choose: impl FnOnce() -> T) -> T {
     let from = with(|graph| graph.nodes().len());
-    let chosen = T::blended(mask, some, none);
+    let chosen = choose();
     with(|graph| graph.branch(mask.0, from));
     chosen
 }
@@ -236,11 +237,19 @@ macro_rules! real {
             fn lane_f64(self, i: usize) -> f64 {
                 f64::from([self][i].known("takes a number"))
             }
-            fn lt(self, other: Self) -> Truth {
-                Truth(add(Op::Less, &[self.0, other.0]))
-            }
-            fn le(self, other: Self) -> Truth {
-                Truth(add(Op::LessEqual, &[self.0, other.0]))
+            operations! {
+                lt(other: Self) -> Truth = Less;
+                le(other: Self) -> Truth = LessEqual;
+                lesser(other: Self) -> Self = Lesser;
+                greater(other: Self) -> Self = Greater;
+                abs() -> Self = Abs;
+                copysign(sign: Self) -> Self = CopySign;
+                sqrt() -> Self = Sqrt;
+                round_ties_even() -> Self = Round;
+                mul_add(a: Self, b: Self) -> Self = MulAdd;
+                pow2_scale() -> Self = Pow2Scale;
+                to_uint() -> Word = ToWord;
+                inverse_cbrt_estimate() -> Self = InverseCbrtEstimate;
             }
             fn blend(mask: Truth, yes: Self, no: Self) -> Self {
                 Self(add(Op::Select, &[mask.0, yes.0, no.0]))
@@ -254,54 +263,30 @@ macro_rules! real {
             fn negate_where(self, mask: Truth) -> Self {
                 Self(add(Op::Select, &[mask.0, (-self).0, self.0]))
             }
-            fn lesser(self, other: Self) -> Self {
-                Self(add(Op::Lesser, &[self.0, other.0]))
-            }
-            fn greater(self, other: Self) -> Self {
-                Self(add(Op::Greater, &[self.0, other.0]))
-            }
-            fn abs(self) -> Self {
-                Self(add(Op::Abs, &[self.0]))
-            }
-            fn copysign(self, sign: Self) -> Self {
-                Self(add(Op::CopySign, &[self.0, sign.0]))
-            }
-            fn sqrt(self) -> Self {
-                Self(add(Op::Sqrt, &[self.0]))
-            }
-            fn round_ties_even(self) -> Self {
-                Self(add(Op::Round, &[self.0]))
-            }
-            fn mul_add(self, a: Self, b: Self) -> Self {
-                Self(add(Op::MulAdd, &[self.0, a.0, b.0]))
-            }
-            fn pow2_scale(self) -> Self {
-                Self(add(Op::Pow2Scale, &[self.0]))
-            }
             fn unit(bits: Word) -> Self {
                 Self(add(Op::Unit, &[bits.0]))
             }
             fn from_uint(value: Word) -> Self {
                 Self(add(Op::FromWord, &[value.0]))
             }
-            fn to_uint(self) -> Word {
-                Word(add(Op::ToWord, &[self.0]))
-            }
-            fn inverse_cbrt_estimate(self) -> Self {
-                Self(add(Op::InverseCbrtEstimate, &[self.0]))
-            }
             fn has_bits(value: Word) -> Truth {
                 Truth(add(Op::WordAny, &[value.0]))
             }
             fn where_any<T: Blend<Self>>(mask: Truth, none: T, some: impl FnOnce() -> T) -> T {
-                if with(|graph| graph.truth(mask.0)) == Some(false) { none } else { branch(mask, some(), none) }
+                if with(|graph| graph.truth(mask.0)) == Some(false) { return none; }
+                let some = some();
+                branch(mask, || T::blended(mask, some, none))
             }
-            fn change_any<T: Blend<Self>>(mask: Truth, what: &mut T, change: impl FnOnce(&mut T)) {
-                let before = *what;
-                *what = Self::where_any(mask, before, || {
-                    change(what);
-                    *what
-                });
+            fn take_any<T, S>(
+                mask: Truth,
+                what: &mut T,
+                some: impl FnOnce(&T) -> S,
+                take: impl FnOnce(&mut T, Truth, &S),
+            ) {
+                if with(|graph| graph.truth(mask.0)) != Some(false) {
+                    let some = some(what);
+                    branch(mask, || take(what, mask, &some));
+                }
             }
             fn iterate<const N: usize, const M: usize>(
                 most: usize,

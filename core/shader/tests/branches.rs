@@ -1,5 +1,6 @@
 //! Branches and loops of a routine become branches and loops of a source, and what cannot be recorded says so.
 
+use etendue::real::Blend;
 use etendue::{Mask, Real, Uint};
 use etendue_shader::*;
 
@@ -70,7 +71,7 @@ fn the_other_side_is_a_branch() {
     let module = function(|x| {
         let small = x.lt(Number::lit(1.0));
         let mut y = Number::lit(0.0);
-        Number::change_any(!small, &mut y, |y| *y = slow(x));
+        Number::take_any(!small, &mut y, |_| slow(x), Blend::take);
         y
     });
     assert!(body(&module).contains("if (!b1) {"), "{}", body(&module));
@@ -200,5 +201,5 @@ fn the_core_branches_by_name() {
         .any(|start| file.starts_with(start))
     };
     found.retain(|file| !may(file));
-    assert!(found.is_empty(), "branch by where_any or change_any in {found:?}");
+    assert!(found.is_empty(), "branch by where_any or take_any in {found:?}");
 }

@@ -2,6 +2,7 @@
 //! bindings` writes them anew.
 
 use etendue::light::listed::{ENTRIES, Entry, With};
+use etendue::warp::listed::{self, WarpEntry};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -206,6 +207,27 @@ fn python() -> String {
     out
 }
 
+/// A line for each warp without parameters.
+fn fixed_warps(line: impl Fn(&WarpEntry) -> String) -> String {
+    listed::ENTRIES.iter().filter(|warp| warp.numbers == 0).map(line).collect()
+}
+fn cpp_warps() -> String {
+    fixed_warps(|warp| {
+        let WarpEntry { warp, name, coordinates, doc, .. } = warp;
+        let doc = doc.join(" ").replace('π', "pi").replace('≥', ">=").replace("  ", " ");
+        format!("//{doc}\nETENDUE_FIXED_WARP({warp}, etendue_{name}, {coordinates})\n")
+    })
+}
+fn c_warps() -> String {
+    let rows = fixed_warps(|warp| format!(" \\\n    W({}, {})", warp.name, warp.coordinates));
+    format!("#define WARPS_WITHOUT(W){rows}\n")
+}
+fn python_warps() -> String {
+    fixed_warps(|WarpEntry { warp, .. }| {
+        format!("@final\nclass {warp}(Warp):\n    def __new__(cls) -> {warp}: ...\n\n")
+    })
+}
+
 /// Compares the part of a file between two marks, or writes it.
 fn check(file: &str, mark: &str, part: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(file);
@@ -239,4 +261,12 @@ fn cpp_is_what_the_list_gives() {
 fn python_types_are_what_the_list_gives() {
     check("core/python/etendue.pyi", "#", &python());
     check("core/python/etendue.pyi", "    # lights", &python_names());
+}
+#[test]
+fn warps_without_parameters_are_what_the_list_gives() {
+    check("core/c/tests/test.c", "// warps", &c_warps());
+    check("core/c/include/etendue.hpp", "// warps", &cpp_warps());
+    check("core/python/etendue.pyi", "# warps", &python_warps());
+    let names = fixed_warps(|WarpEntry { warp, .. }| format!("    \"{warp}\",\n"));
+    check("core/python/etendue.pyi", "    # names of warps", &names);
 }

@@ -10,7 +10,7 @@ use crate::light::triangle::projected::sector::Sector;
 use crate::light::triangle::projected::zenith::{Search, Side, drop_narrow, sectors, surrounds};
 use crate::light::triangle::projected::{Given, LEAST_HEIGHT, ProjectedTriangle, ahead, area, lack, with_rest, within};
 use crate::math::ratio;
-use crate::real::{Mask, Real, blended, unit_interval};
+use crate::real::{Blend, Mask, Real, unit_interval};
 use crate::vector::double_word::{cross_dw, cross_sums, dot_dw, sum_dw, unit_normal};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
@@ -59,7 +59,6 @@ impl<R, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
 }
 
 lanewise_by_map!(ProjectedPolygon, N, ROOM);
-blended!(ProjectedPolygon [N, ROOM] { fan, plane, volume, projected, central });
 
 impl<R: Real> ProjectedParallelogram<R> {
     /// Prepares for a parallelogram with the corner `p` relative to the point and the edges `u` and `v` (in one unit of length), on a surface
@@ -172,9 +171,11 @@ impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
                 near = near & inside(triangle.pole2);
             }
         }
-        R::change_any(near, self, |this| {
-            let rounded = |[x, rest]: [R; 2]| (x + rest) * shrink;
-            let areas: [R; N] = core::array::from_fn(|i| rounded(area(long, ends[i], products[i])));
+        let rounded = |[x, rest]: [R; 2]| (x + rest) * shrink;
+        let areas = || core::array::from_fn(|i| rounded(area(long, ends[i], products[i])));
+        let areas: [R; N] = R::where_any(near, [zero; N], areas);
+        let central = near & surrounds(&areas, turn) & self.volume.abs().gt(zero);
+        let some = |this: &Self| {
             let heights: [R; N] = core::array::from_fn(|i| {
                 let [z, more] = dot_dw(corners[i], long);
                 let z = rounded([z, more + rests[i].dot(long)]);
@@ -190,25 +191,32 @@ impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
                     heights: [heights[i], heights[next]],
                 }
             });
-            let central = surrounds(&sides, turn) & this.volume.abs().gt(zero);
-            R::change_any(near & central, this, |this| this.divide_about_zenith(&sides, unit, turn));
+            let (plane, volume) = this.largest();
+            (sides, plane, volume, this.projected)
+        };
+        R::take_any(central, self, some, |this, central, (sides, plane, volume, whole)| {
+            let mut sum = zero;
+            for (i, triangle) in this.fan[..Self::TRIANGLES].iter_mut().enumerate() {
+                let mut pieces = sectors(sides, i, unit, turn);
+                drop_narrow(&mut pieces, *whole);
+                let [first, second] = &pieces;
+                triangle.first.take(central, first);
+                triangle.second.take(central, second);
+                triangle.central.take(central, &zero);
+                let area = first.area + second.area;
+                triangle.projected.take(central, &area);
+                triangle.plane.take(central, plane);
+                triangle.volume.take(central, volume);
+                sum += area;
+            }
+            this.projected.take(central, &sum);
+            this.central.take(central, &one);
         });
     }
-    /// Gives the triangles the sectors about the zenith.
+    /// The plane and the volume of the largest triangle: a sector about the zenith reaches beyond its own, which may even have no area.
     #[inline(always)]
-    fn divide_about_zenith(&mut self, sides: &[Side<R>; N], unit: Vec3<R>, turn: R) {
-        let (zero, one) = (R::lit(0.0), R::lit(1.0));
-        let (whole, mut sum) = (self.projected, zero);
-        for (i, triangle) in self.fan[..Self::TRIANGLES].iter_mut().enumerate() {
-            let mut pieces = sectors(sides, i, unit, turn);
-            drop_narrow(&mut pieces, whole);
-            triangle.projected = pieces[0].area + pieces[1].area;
-            [triangle.first, triangle.second] = pieces;
-            triangle.central = zero;
-            sum += triangle.projected;
-        }
-        // a sector reaches beyond its triangle, which may even have no area: all take the plane of the largest
-        let (mut plane, mut volume, mut most) = (self.fan[0].plane, self.fan[0].volume, zero);
+    fn largest(&self) -> (Vec3<R>, R) {
+        let (mut plane, mut volume, mut most) = (self.fan[0].plane, self.fan[0].volume, R::lit(0.0));
         for triangle in &self.fan[..Self::TRIANGLES] {
             let size = triangle.plane.length_squared();
             let larger = size.gt(most);
@@ -216,10 +224,7 @@ impl<R: Real, const N: usize, const ROOM: usize> ProjectedPolygon<R, N, ROOM> {
             volume = R::blend(larger, triangle.volume, volume);
             most = R::blend(larger, size, most);
         }
-        for triangle in &mut self.fan[..Self::TRIANGLES] {
-            (triangle.plane, triangle.volume) = (plane, volume);
-        }
-        (self.projected, self.central) = (sum, one);
+        (plane, volume)
     }
     /// The sector for u₀, the share of it before the azimuth, counted from its apex, and the number of its triangle.
     #[inline(always)]

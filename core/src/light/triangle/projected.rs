@@ -10,7 +10,7 @@ use crate::lanewise::lanewise;
 use crate::light::direction::{DirectionSample, to_unit};
 use crate::light::seen::ProjectedShape;
 use crate::math::{ratio, rsqrt};
-use crate::real::{Real, unit_interval};
+use crate::real::{Blend, Mask, Real, unit_interval};
 use crate::vector::double_word::{cross_dw, dot_dw, height_dw, sum_dw, unit_normal};
 use crate::vector::{Vec2, Vec3};
 use crate::warp::Warp;
@@ -197,24 +197,34 @@ impl<R: Real> ProjectedTriangle<R> {
             heights: [z[i], z[(i + 1) % 3]],
         });
         let turn = one.negate_where(volume.lt(zero));
-        let central = surrounds(&sides, turn) & volume.abs().gt(zero);
-        R::change_any(!central, self, |this| {
-            let none = (corners, Corners::default(), Vec3::default());
-            let (first, second, diagonal) = R::where_any(cut, none, || clip(&corners, &exact, normal));
-            this.diagonal = diagonal;
-            R::change_any(second.volume.abs().gt(zero), &mut this.second, |piece| piece.sweep(&second, normal));
-            this.first.sweep(&first, normal);
+        let central = surrounds(&areas, turn) & volume.abs().gt(zero);
+        if !central.all() {
+            let mut parts = (corners, Corners::default(), Vec3::default());
+            R::take_any(cut, &mut parts, |parts| clip(&parts.0, &exact, normal), Blend::<R>::take);
+            let (first, second, diagonal) = &parts;
+            self.diagonal = *diagonal;
+            let swept = |_: &Piece<R>| {
+                let mut piece = Piece::default();
+                piece.sweep(second, normal);
+                piece
+            };
+            R::take_any(second.volume.abs().gt(zero), &mut self.second, swept, Blend::<R>::take);
+            self.first.sweep(first, normal);
             // if the horizon leaves next to nothing of a piece, only u = 0 falls into it
-            let least = narrowest::<R>() * (this.first.area + this.second.area);
-            for piece in [&mut this.first, &mut this.second] {
+            let least = narrowest::<R>() * (self.first.area + self.second.area);
+            for piece in [&mut self.first, &mut self.second] {
                 piece.area = piece.area.keep(piece.area.gt(least));
             }
-        });
-        R::change_any(central, self, |this| {
+        }
+        let about_zenith = |_: &Self| {
             let mut pieces = sectors(&sides, 0, normal, turn);
             let whole = pieces[0].area + pieces[1].area;
             drop_narrow(&mut pieces, whole);
-            [this.first, this.second] = pieces;
+            pieces
+        };
+        R::take_any(central, self, about_zenith, |this, central, [first, second]| {
+            this.first.take(central, first);
+            this.second.take(central, second);
         });
         let side = |i: usize| {
             // the plane of nearly opposite vertices is known only to −cos : sin of their angle; shorten the pole by that much

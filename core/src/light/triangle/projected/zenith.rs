@@ -148,10 +148,10 @@ impl<R: Real> Slice<R> {
 
 /// Whether the zenith is inside the polygon: on the inner side of every edge.
 #[inline(always)]
-pub(in crate::light) fn surrounds<R: Real, const N: usize>(sides: &[Side<R>; N], turn: R) -> R::Mask {
+pub(in crate::light) fn surrounds<R: Real, const N: usize>(areas: &[R; N], turn: R) -> R::Mask {
     let mut inside = R::Mask::splat(true);
-    for side in sides {
-        inside = inside & (side.area * turn).ge(R::lit(0.0));
+    for &area in areas {
+        inside = inside & (area * turn).ge(R::lit(0.0));
     }
     inside
 }
