@@ -41,8 +41,10 @@ const PART: f64 = 0.03;
 const SPP: [u32; 3] = [8, 16, 32];
 /// Numbers of tiles after which is decided which ways are worth more.
 const STAGES: [usize; 3] = [4, 8, 16];
-/// Nothing is taken instead of the rule by fewer tiles, in which most of what makes an image noisy might not be seen.
+/// Nothing is taken instead of the rule by fewer tiles, in which most of what makes an image noisy might not be seen, but for one way that is
+/// left and better by a factor [`SURE`]: tiles of the rule may then take long, by its closed forms.
 const FEWEST: usize = 6;
+const SURE: f64 = 2.0;
 /// A way that the best exceeds by more than this factor in the first tiles, whichever is left out, is not tried in others. (In 40 times four of
 /// 16 tiles, that ends the trials of `cornell-box` 35 times, and with 2 never; it leaves out the best way of `plates` 12 times, and with 2 11
 /// times, since one of its tiles has nearly all of the variance.)
@@ -164,7 +166,8 @@ impl Trial {
                         self.score(way, done, Some(i)) > FAR * best
                     })
             };
-            others.iter().copied().filter(|way| !is_far(way)).collect()
+            let near: Vec<usize> = others.iter().copied().filter(|way| !is_far(way)).collect();
+            if near.len() == 1 && self.is_better(near[0]) { Vec::new() } else { near }
         } else if others.iter().any(|&way| self.is_better(way)) {
             Vec::new()
         } else {
@@ -178,7 +181,10 @@ impl Trial {
     fn is_better(&self, way: usize) -> bool {
         let count = self.tried[way].len();
         let of = |way: usize, without: Option<usize>| self.score(way, count, without);
-        count >= FEWEST && MARGIN * of(way, None) < of(0, None) && (0..count).all(|i| of(way, Some(i)) < of(0, Some(i)))
+        let times = if count < FEWEST { SURE } else { 1.0 };
+        count > 1
+            && MARGIN * of(way, None) < of(0, None)
+            && (0..count).all(|i| times * of(way, Some(i)) < of(0, Some(i)))
     }
 
     /// Variance × cost of a way in the first tiles, but for one of them, and but for a common factor. If pixels share samples, these go where
@@ -206,7 +212,8 @@ impl Trial {
         };
         let least = |a: &usize, b: &usize| relative(a).total_cmp(&relative(b));
         let ways = 0..self.ways.len();
-        let best = ways.clone().skip(1).filter(|&way| self.is_better(way)).min_by(least).unwrap_or(0);
+        let is_left = |way: &usize| self.tried[*way].len() == self.tried[0].len() && self.is_better(*way);
+        let best = ways.clone().skip(1).filter(is_left).min_by(least).unwrap_or(0);
         let next = ways.filter(|&way| way != best).min_by(least).unwrap_or(0);
         let times = relative(&next) / relative(&best);
         let (way, tiles) = (self.ways[best], self.tried[best].len().min(self.tried[next].len()));
@@ -250,40 +257,55 @@ fn variances(tiles: &[&Tried], rule: &[&Tried]) -> Vec<f64> {
     }
 }
 
-/// Nanoseconds of what an image consists of. They are fits to the times and counts that `regret_of_auto_as_a_table` of the tests prints; only
-/// ratios matter.
-const CAMERA: f64 = 35.0;
-const MIRROR: f64 = 25.0;
-const SHADOW: f64 = 15.0;
-const PROOF: f64 = 3000.0;
-const FORM: f64 = 250.0;
+/// What images consist of.
+const KINDS: usize = 11;
 
-/// The same for a sample of a light, without its ray; `is_few` says whether samples may be allocated to a few lights.
-fn of_sample((technique, choice): TechniqueChoice, is_few: bool) -> f64 {
-    let chosen = match choice {
-        ChoiceBy::Auto if is_few => 44.0,
-        ChoiceBy::Spatial => 27.0,
-        _ => 0.0,
-    };
+/// What each is called, and the nanoseconds that it takes: `cargo test --release -p etendue-render-tests --test all -- --ignored regret_of_auto
+/// --nocapture` prints these beside those that fit the times of its images best. Only ratios matter.
+const TIMES: [(&str, f64); KINDS] = [
+    ("rays from the camera", 35.0),
+    ("rays from mirrors", 25.0),
+    ("shadow rays", 15.0),
+    ("proofs", 3000.0),
+    ("what proofs meet", 300.0),
+    ("closed forms", 130.0),
+    ("samples allocated to lights", 44.0),
+    ("lights chosen at points", 27.0),
+    ("samples of light or surface", 16.0),
+    ("samples by projected solid angle", 60.0),
+    ("other samples", 8.0),
+];
+
+/// How many of these were counted: those that more samples need more of, and those that they do not. `is_few` says whether samples may be
+/// allocated to a few lights.
+fn kinds((technique, choice): TechniqueChoice, is_few: bool, count: &RayCount) -> [[f64; KINDS]; 2] {
+    let RayCount { camera, look, mirror, shadow, corner, proofs, met, forms } = *count;
+    // where lights are known, none is sampled
+    let sampled = if technique == Technique::Analytic { shadow.min(camera) } else { camera };
+    let chosen = if technique == Technique::Brdf { 0 } else { sampled };
+    let allocated = if choice == ChoiceBy::Auto && is_few { chosen } else { 0 };
+    let at_points = if choice == ChoiceBy::Spatial { chosen } else { 0 };
     let drawn = match technique {
-        Technique::Brdf => return 8.0,
-        Technique::MisPower | Technique::MisLobe => 16.0,
-        Technique::ProjectedSolidAngle => 60.0,
-        _ => 8.0,
+        Technique::MisPower | Technique::MisLobe => [sampled, 0, 0],
+        Technique::ProjectedSolidAngle => [0, sampled, 0],
+        _ => [0, 0, sampled],
     };
-    chosen + drawn
+    let [mis, projected, plain] = drawn;
+    let samples = [camera + look, mirror, shadow, 0, 0, forms, allocated, at_points, mis, projected, plain];
+    [samples, [corner, 0, 0, proofs, met, 0, 0, 0, 0, 0, 0]].map(|all| all.map(|n| n as f64))
 }
 
 /// The cost of what was counted in a tile, with `times` as many samples but the same proofs.
 pub(super) fn cost(way: TechniqueChoice, is_few: bool, count: &RayCount, times: f64) -> Cost {
-    let RayCount { camera, look, mirror, shadow, corner, proofs, forms } = count;
-    let [camera, look, mirror, shadow, corner, proofs, forms] =
-        [camera, look, mirror, shadow, corner, proofs, forms].map(|n| *n as f64);
-    // where lights are known, none is sampled
-    let sampled = if way.0 == Technique::Analytic { shadow.min(camera) } else { camera };
-    let samples =
-        (camera + look) * CAMERA + mirror * MIRROR + shadow * SHADOW + forms * FORM + sampled * of_sample(way, is_few);
-    Cost { samples: times * samples, fixed: corner * CAMERA + proofs * PROOF }
+    let [samples, fixed] =
+        kinds(way, is_few, count).map(|all| all.iter().zip(TIMES).map(|(n, (_, time))| n * time).sum::<f64>());
+    Cost { samples: times * samples, fixed }
+}
+
+/// What [`View::kinds`](super::View::kinds) tells.
+pub(super) fn named(way: TechniqueChoice, is_few: bool, count: &RayCount) -> Vec<(&'static str, f64, f64)> {
+    let [samples, fixed] = kinds(way, is_few, count);
+    TIMES.iter().zip(samples).zip(fixed).map(|((&(name, time), n), m)| (name, time, n + m)).collect()
 }
 
 #[cfg(test)]
@@ -376,6 +398,9 @@ mod tests {
         let found = found.unwrap();
         assert!(!found.is_rule && found.tiles == 8 && (found.times - 0.8 / 0.7).abs() < 1e-12, "{found:?}");
         assert_eq!(found.over.0, Technique::SolidAngle);
+        // one that is left after four tiles and far better ends there
+        let (tiles, way, _) = end(&[[9.0; 16], [1.0; 16], [1.5; 16]], None);
+        assert_eq!((tiles, way.0), (vec![4, 4, 4], Technique::SolidAngle));
         // by one tile alone, nothing is taken
         let mut costs = [1.0; 16];
         costs[3] = 30.0;

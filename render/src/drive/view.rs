@@ -1,6 +1,6 @@
 //! An image of a scene through a camera: its technique, its samples, and what is known of its lights.
 
-use super::auto::{AutoTrial, TechniqueChoice, Trial, Tried, cost};
+use super::auto::{AutoTrial, TechniqueChoice, Trial, Tried, cost, named};
 use super::corners::packets_for;
 use super::pixel_counts::{PixelCounts, SamplePlan};
 use super::pixel_statistics::Statistics;
@@ -149,6 +149,13 @@ impl View<'_> {
     #[must_use]
     pub const fn trial(&self) -> Option<&AutoTrial> {
         self.trial.as_ref()
+    }
+
+    /// What the time of an image consists of, by its counts: what each part is called, how many nanoseconds one of it takes according to the
+    /// weights of [trials](Technique::Auto), and how many there are.
+    #[must_use]
+    pub fn kinds(&self, count: &RayCount) -> Vec<(&'static str, f64, f64)> {
+        named((self.settings.technique, self.settings.choice), self.has_few(), count)
     }
 
     /// The ways that may be best for [`Technique::Auto`]. The first is taken without a trial: the rule. All others have bounded weights, or none
