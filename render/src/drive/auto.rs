@@ -41,10 +41,8 @@ const PART: f64 = 0.03;
 const SPP: [u32; 3] = [8, 16, 32];
 /// Numbers of tiles after which is decided which ways are worth more.
 const STAGES: [usize; 3] = [4, 8, 16];
-/// Nothing is taken instead of the rule by fewer tiles, in which most of what makes an image noisy might not be seen, but for one way that is
-/// left and better by a factor [`SURE`]: tiles of the rule may then take long, by its closed forms.
+/// Nothing is taken instead of the rule by fewer tiles, in which most of what makes an image noisy might not be seen.
 const FEWEST: usize = 6;
-const SURE: f64 = 2.0;
 /// A way that the best exceeds by more than this factor in the first tiles, whichever is left out, is not tried in others. (In 40 times four of
 /// 16 tiles, that ends the trials of `cornell-box` 35 times, and with 2 never; it leaves out the best way of `plates` 12 times, and with 2 11
 /// times, since one of its tiles has nearly all of the variance.)
@@ -166,8 +164,7 @@ impl Trial {
                         self.score(way, done, Some(i)) > FAR * best
                     })
             };
-            let near: Vec<usize> = others.iter().copied().filter(|way| !is_far(way)).collect();
-            if near.len() == 1 && self.is_better(near[0]) { Vec::new() } else { near }
+            others.iter().copied().filter(|way| !is_far(way)).collect()
         } else if others.iter().any(|&way| self.is_better(way)) {
             Vec::new()
         } else {
@@ -181,10 +178,7 @@ impl Trial {
     fn is_better(&self, way: usize) -> bool {
         let count = self.tried[way].len();
         let of = |way: usize, without: Option<usize>| self.score(way, count, without);
-        let times = if count < FEWEST { SURE } else { 1.0 };
-        count > 1
-            && MARGIN * of(way, None) < of(0, None)
-            && (0..count).all(|i| times * of(way, Some(i)) < of(0, Some(i)))
+        count >= FEWEST && MARGIN * of(way, None) < of(0, None) && (0..count).all(|i| of(way, Some(i)) < of(0, Some(i)))
     }
 
     /// Variance × cost of a way in the first tiles, but for one of them, and but for a common factor. If pixels share samples, these go where
@@ -212,8 +206,7 @@ impl Trial {
         };
         let least = |a: &usize, b: &usize| relative(a).total_cmp(&relative(b));
         let ways = 0..self.ways.len();
-        let is_left = |way: &usize| self.tried[*way].len() == self.tried[0].len() && self.is_better(*way);
-        let best = ways.clone().skip(1).filter(is_left).min_by(least).unwrap_or(0);
+        let best = ways.clone().skip(1).filter(|&way| self.is_better(way)).min_by(least).unwrap_or(0);
         let next = ways.filter(|&way| way != best).min_by(least).unwrap_or(0);
         let times = relative(&next) / relative(&best);
         let (way, tiles) = (self.ways[best], self.tried[best].len().min(self.tried[next].len()));
@@ -398,9 +391,6 @@ mod tests {
         let found = found.unwrap();
         assert!(!found.is_rule && found.tiles == 8 && (found.times - 0.8 / 0.7).abs() < 1e-12, "{found:?}");
         assert_eq!(found.over.0, Technique::SolidAngle);
-        // one that is left after four tiles and far better ends there
-        let (tiles, way, _) = end(&[[9.0; 16], [1.0; 16], [1.5; 16]], None);
-        assert_eq!((tiles, way.0), (vec![4, 4, 4], Technique::SolidAngle));
         // by one tile alone, nothing is taken
         let mut costs = [1.0; 16];
         costs[3] = 30.0;
