@@ -331,21 +331,21 @@ impl Bvh {
         self.triangles.count()
     }
     /// Calls `visit` with each primitive that may meet the region, until it returns false or `budget` nodes
-    /// have been visited. Returns whether the search was completed.
+    /// have been visited, of which it leaves the rest. Returns whether the search was completed.
     pub fn search(
         &self,
         region: &Region,
         stack: &mut Vec<u32>,
-        mut budget: usize,
+        budget: &mut usize,
         mut visit: impl FnMut(PrimitiveId) -> bool,
     ) -> bool {
         let shapes = self.shapes.tree();
         let ids = shapes.primitives().ids();
-        region::search(&shapes.view(), region, stack, &mut budget, |at| visit(PrimitiveId::of_shape(ids[at])))
-            && region::search(&self.triangles.view(), region, stack, &mut budget, |at| {
+        region::search(&shapes.view(), region, stack, budget, |at| visit(PrimitiveId::of_shape(ids[at])))
+            && region::search(&self.triangles.view(), region, stack, budget, |at| {
                 visit(PrimitiveId::of_triangle(at as u32))
             })
-            && self.instances.as_ref().is_none_or(|all| all.search(region, stack, &mut budget, visit))
+            && self.instances.as_ref().is_none_or(|all| all.search(region, stack, budget, visit))
     }
     /// Greatest magnitude of a coordinate of the scene.
     pub fn reach(&self) -> f32 {

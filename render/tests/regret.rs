@@ -128,8 +128,41 @@ fn images(world: &World, all: &[Settings], truth: &Truth, turns: u64) -> Vec<Tak
     all
 }
 
+/// What a sample of an image consists of, each with its name, the nanoseconds that trials take it to need, and how many there are; and the
+/// nanoseconds that it took.
+struct Row {
+    kinds: Vec<(&'static str, f64, f64)>,
+    ns: f64,
+}
+
+/// Prints the times by which trials count costs beside those that are nearest to the times of images, and how far both are from these.
+fn print_times(rows: &[Row]) {
+    let mut times: Vec<f64> = rows[0].kinds.iter().map(|kind| kind.1).collect();
+    let counted =
+        |row: &Row, times: &[f64]| row.kinds.iter().zip(times).map(|(kind, t)| kind.2 * t).sum::<f64>() / row.ns;
+    let far = |times: &[f64]| {
+        let mut all: Vec<f64> = rows.iter().map(|row| counted(row, times)).collect();
+        all.sort_by(f64::total_cmp);
+        [1, 5, 9].map(|tenth| format!("{:.2}", all[tenth * all.len() / 10])).join(", ")
+    };
+    println!("counted over measured times of {} images, first, fifth and ninth tenth: {}", rows.len(), far(&times));
+    // the least sum of squared relative differences, by one time after the other, none of which is less than nothing
+    let count = times.len();
+    for k in (0..4000 * count).map(|step| step % count) {
+        let sums = rows.iter().fold([0.0, 0.0], |[above, below], row| {
+            let n = row.kinds[k].2 / row.ns;
+            [above + n * (1.0 - counted(row, &times) + n * times[k]), below + n * n]
+        });
+        times[k] = if sums[1] > 0.0 { (sums[0] / sums[1]).max(0.0) } else { 0.0 };
+    }
+    for (kind, time) in rows[0].kinds.iter().zip(&times) {
+        println!("    {:34} {:6.0} ns, nearest {time:6.1}", kind.0, kind.1);
+    }
+    println!("with the nearest: {}", far(&times));
+}
+
 /// Measures a scene; returns the efficiencies of the rule of small images and of `auto` relative to the best.
-fn measure(name: &str, scene: &Scene) -> Option<[f64; 2]> {
+fn measure(name: &str, scene: &Scene, rows: &mut Vec<Row>) -> Option<[f64; 2]> {
     let aspect = f64::from(scene.film.width) / f64::from(scene.film.height);
     let height = (PIXELS / aspect).sqrt().round().max(4.0);
     let size = [(height * aspect).round().max(4.0) as u32, height as u32];
@@ -175,22 +208,21 @@ fn measure(name: &str, scene: &Scene) -> Option<[f64; 2]> {
     let mut order: Vec<&Taken> = all.iter().collect();
     order.sort_by(|a, b| b.efficiency().total_cmp(&a.efficiency()));
     for one in order {
-        let RayCount { camera, look, mirror, shadow, corner, proofs, forms } = one.rays;
         let samples = truth.film.pixels.len() as f64 * f64::from(SPP);
-        let per = |x: u64| x as f64 / samples;
+        let ns = 1e9 * one.seconds() / samples;
+        let kinds = world.view(&one.settings).kinds(&one.rays).into_iter();
+        let kinds: Vec<_> = kinds.map(|(name, time, count)| (name, time, count / samples)).collect();
+        let counts: String = kinds.iter().map(|kind| format!(" {:.3}", kind.2)).collect();
+        let relative = one.efficiency() / best;
         println!(
-            "    {:28} {:.3}  error {:.2e}  {:6.1} ns  rays {:.2} {:.2} {:.2} {:.3}, {:.4} proofs, {:.3} forms",
+            "    {:28} {relative:.3}  error {:.2e}  {ns:6.1} ns {counts}",
             title(&one.settings),
-            one.efficiency() / best,
-            one.square().sqrt() / mean,
-            1e9 * one.seconds() / samples,
-            per(camera + look),
-            per(mirror),
-            per(shadow),
-            per(corner),
-            per(proofs),
-            per(forms),
+            one.square().sqrt() / mean
         );
+        // the time of a trial is not counted
+        if one.settings.technique != Technique::Auto {
+            rows.push(Row { kinds, ns });
+        }
     }
     Some(regret)
 }
@@ -234,8 +266,10 @@ fn scenes() -> Vec<(String, Scene)> {
 fn regret_of_auto_as_a_table() {
     let began = Instant::now();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build().unwrap();
+    let mut rows = Vec::new();
     let all: Vec<[f64; 2]> =
-        pool.install(|| scenes().iter().filter_map(|(name, scene)| measure(name, scene)).collect());
+        pool.install(|| scenes().iter().filter_map(|(name, scene)| measure(name, scene, &mut rows)).collect());
+    print_times(&rows);
     for (k, what) in ["the rule of small images", "auto"].into_iter().enumerate() {
         let mut all: Vec<f64> = all.iter().map(|both| both[k]).collect();
         all.sort_by(f64::total_cmp);

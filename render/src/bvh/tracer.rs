@@ -28,7 +28,10 @@ pub struct RayCount {
     pub corner: u64,
     /// Proofs that were asked for of what hides a light: no rays, but part of what an image costs.
     pub proofs: u64,
-    /// Closed forms that were computed for eight points at a time: one for each light, and one for each solid that may hide it.
+    /// Nodes of the tree and primitives that these proofs met.
+    pub met: u64,
+    /// Closed forms of diffuse light that were computed for eight points at a time: one for each light and for each solid that may hide it, and two for each
+    /// part of the light that some of these solids hide together; in double precision twice as many.
     pub forms: u64,
 }
 
@@ -40,6 +43,7 @@ impl AddAssign for RayCount {
         self.shadow += other.shadow;
         self.corner += other.corner;
         self.proofs += other.proofs;
+        self.met += other.met;
         self.forms += other.forms;
     }
 }

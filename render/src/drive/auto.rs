@@ -250,40 +250,55 @@ fn variances(tiles: &[&Tried], rule: &[&Tried]) -> Vec<f64> {
     }
 }
 
-/// Nanoseconds of what an image consists of. They are fits to the times and counts that `regret_of_auto_as_a_table` of the tests prints; only
-/// ratios matter.
-const CAMERA: f64 = 35.0;
-const MIRROR: f64 = 25.0;
-const SHADOW: f64 = 15.0;
-const PROOF: f64 = 3000.0;
-const FORM: f64 = 250.0;
+/// What images consist of.
+const KINDS: usize = 11;
 
-/// The same for a sample of a light, without its ray; `is_few` says whether samples may be allocated to a few lights.
-fn of_sample((technique, choice): TechniqueChoice, is_few: bool) -> f64 {
-    let chosen = match choice {
-        ChoiceBy::Auto if is_few => 44.0,
-        ChoiceBy::Spatial => 27.0,
-        _ => 0.0,
-    };
+/// What each is called, and the nanoseconds that it takes: `cargo test --release -p etendue-render-tests --test all -- --ignored regret_of_auto
+/// --nocapture` prints these beside those that fit the times of its images best. Only ratios matter.
+const TIMES: [(&str, f64); KINDS] = [
+    ("rays from the camera", 35.0),
+    ("rays from mirrors", 25.0),
+    ("shadow rays", 15.0),
+    ("proofs", 3000.0),
+    ("what proofs meet", 300.0),
+    ("closed forms", 130.0),
+    ("samples allocated to lights", 44.0),
+    ("lights chosen at points", 27.0),
+    ("samples of light or surface", 16.0),
+    ("samples by projected solid angle", 60.0),
+    ("other samples", 8.0),
+];
+
+/// How many of these were counted: those that more samples need more of, and those that they do not. `is_few` says whether samples may be
+/// allocated to a few lights.
+fn kinds((technique, choice): TechniqueChoice, is_few: bool, count: &RayCount) -> [[f64; KINDS]; 2] {
+    let RayCount { camera, look, mirror, shadow, corner, proofs, met, forms } = *count;
+    // where lights are known, none is sampled
+    let sampled = if technique == Technique::Analytic { shadow.min(camera) } else { camera };
+    let chosen = if technique == Technique::Brdf { 0 } else { sampled };
+    let allocated = if choice == ChoiceBy::Auto && is_few { chosen } else { 0 };
+    let at_points = if choice == ChoiceBy::Spatial { chosen } else { 0 };
     let drawn = match technique {
-        Technique::Brdf => return 8.0,
-        Technique::MisPower | Technique::MisLobe => 16.0,
-        Technique::ProjectedSolidAngle => 60.0,
-        _ => 8.0,
+        Technique::MisPower | Technique::MisLobe => [sampled, 0, 0],
+        Technique::ProjectedSolidAngle => [0, sampled, 0],
+        _ => [0, 0, sampled],
     };
-    chosen + drawn
+    let [mis, projected, plain] = drawn;
+    let samples = [camera + look, mirror, shadow, 0, 0, forms, allocated, at_points, mis, projected, plain];
+    [samples, [corner, 0, 0, proofs, met, 0, 0, 0, 0, 0, 0]].map(|all| all.map(|n| n as f64))
 }
 
 /// The cost of what was counted in a tile, with `times` as many samples but the same proofs.
 pub(super) fn cost(way: TechniqueChoice, is_few: bool, count: &RayCount, times: f64) -> Cost {
-    let RayCount { camera, look, mirror, shadow, corner, proofs, forms } = count;
-    let [camera, look, mirror, shadow, corner, proofs, forms] =
-        [camera, look, mirror, shadow, corner, proofs, forms].map(|n| *n as f64);
-    // where lights are known, none is sampled
-    let sampled = if way.0 == Technique::Analytic { shadow.min(camera) } else { camera };
-    let samples =
-        (camera + look) * CAMERA + mirror * MIRROR + shadow * SHADOW + forms * FORM + sampled * of_sample(way, is_few);
-    Cost { samples: times * samples, fixed: corner * CAMERA + proofs * PROOF }
+    let [samples, fixed] =
+        kinds(way, is_few, count).map(|all| all.iter().zip(TIMES).map(|(n, (_, time))| n * time).sum::<f64>());
+    Cost { samples: times * samples, fixed }
+}
+
+/// What [`View::kinds`](super::View::kinds) tells.
+pub(super) fn named(way: TechniqueChoice, is_few: bool, count: &RayCount) -> Vec<(&'static str, f64, f64)> {
+    let [samples, fixed] = kinds(way, is_few, count);
+    TIMES.iter().zip(samples).zip(fixed).map(|((&(name, time), n), m)| (name, time, n + m)).collect()
 }
 
 #[cfg(test)]

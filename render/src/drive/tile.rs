@@ -84,8 +84,8 @@ impl<'a> TileRenderer<'a> {
 
     /// Rays traced since the last call.
     pub(super) fn take_count(&mut self) -> RayCount {
-        let [proofs, forms] = self.know.as_mut().map_or([0; 2], |know| know.take_counts());
-        RayCount { proofs, forms, ..std::mem::take(&mut self.paths.tracer.count) }
+        let [proofs, met, forms] = self.know.as_mut().map_or([0; 3], |know| know.take_counts());
+        RayCount { proofs, met, forms, ..std::mem::take(&mut self.paths.tracer.count) }
     }
 
     /// Renders all samples of the pixels of a tile [x0, y0, x1, y1), row by row.

@@ -1,6 +1,6 @@
 //! An image of a scene through a camera: its technique, its samples, and what is known of its lights.
 
-use super::auto::{AutoTrial, TechniqueChoice, Trial, Tried, cost};
+use super::auto::{AutoTrial, TechniqueChoice, Trial, Tried, cost, named};
 use super::corners::packets_for;
 use super::pixel_counts::{PixelCounts, SamplePlan};
 use super::pixel_statistics::Statistics;
@@ -143,9 +143,17 @@ impl View<'_> {
         self.trial.as_ref()
     }
 
+    /// What the time of an image consists of, by its counts: what each part is called, how many nanoseconds one of it takes according to the
+    /// weights of [trials](Technique::Auto), and how many there are.
+    #[must_use]
+    pub fn kinds(&self, count: &RayCount) -> Vec<(&'static str, f64, f64)> {
+        named((self.settings.technique, self.settings.choice), self.has_few(), count)
+    }
+
     /// The ways that may be best for [`Technique::Auto`]. The first is taken without a trial: the rule. All others have bounded weights, or none
-    /// that they could miss, so that few tiles tell: points uniform over the area of a lamp, and lamps chosen by their power, are not tried.
-    /// Uniform over projected solid angle they are bounded where surfaces are diffuse.
+    /// that they could miss, so that few tiles tell: points uniform over the area of a lamp are tried only where it emits into a cone and no
+    /// surface is near it, and lamps chosen by their power never. Uniform over projected solid angle weights are bounded where surfaces are
+    /// diffuse.
     ///
     /// Through a lens most of the error is often that of the image's edges: closed forms then take time that they do not save, and are not the
     /// rule. (By `etendue render SCENE --spp 64 --size 256x256 --threads 1`, `analytic` takes twice as long on `defocus`.) Of lights with
@@ -162,6 +170,10 @@ impl View<'_> {
         // no sample is below the horizon, and none counts more than another
         if !is_rough && scene.lights.is_one_projected() {
             ways.push((Technique::ProjectedSolidAngle, choice));
+        }
+        // many directions to a lamp that emits into a cone are in vain
+        if !is_rough && scene.lights.only_few_areas() && self.world.are_lights_narrow_and_far() {
+            ways.push((Technique::Area, choice));
         }
         if choice != ChoiceBy::Auto {
             return ways;

@@ -83,7 +83,7 @@ struct Entry {
 pub(super) struct Certificates<'a> {
     surfaces: &'a Surfaces,
     pub(super) lights: Vec<AreaLight<'a>>,
-    certifier: Certifier<'a>,
+    pub(super) certifier: Certifier<'a>,
     /// The camera, if it is a pinhole.
     pub(super) pinhole: Option<Pinhole>,
     /// The first pixel of the tile.
@@ -101,8 +101,6 @@ pub(super) struct Certificates<'a> {
     eye: Vec3<f64>,
     /// What was found for the primitive that was looked at last.
     worth: (PrimitiveId, bool),
-    /// Number of proofs that were asked for.
-    pub(super) asked: u64,
 }
 
 /// Whether the visible part of a light is worth computing. More occluders take longer than the samples that they save: with 16, `defocus`
@@ -150,7 +148,6 @@ impl<'a> Certificates<'a> {
             least: pixel.map(|area| pixels * area),
             eye,
             worth: (PrimitiveId::NONE, false),
-            asked: 0,
         }
     }
 
@@ -264,13 +261,12 @@ impl<'a> Certificates<'a> {
     /// Appends the certificates of all lights for a patch, and returns the index of the first. What a larger patch has decided, by its
     /// certificates from `larger`, stays.
     fn certify(&mut self, primitive: PrimitiveId, patch: Option<&Patch>, larger: Option<usize>) -> usize {
-        let Self { lights, certifier, known, solids, asked, .. } = self;
+        let Self { lights, certifier, known, solids, .. } = self;
         let first = known.len();
         for light in 0..lights.len() {
             let before = larger.map_or(Known::Open, |larger| known[larger + light].clone());
             let (proof, precision) = match patch {
                 Some(patch) if !matches!(before, Known::Lit(_) | Known::Dark | Known::Never) => {
-                    *asked += 1;
                     certifier.certify(primitive, patch, light)
                 }
                 _ => {

@@ -19,6 +19,8 @@ pub struct Certifier<'a> {
     region: Region,
     stack: Vec<u32>,
     prover: Prover,
+    /// [`RayCount::proofs`](crate::bvh::RayCount::proofs) and `met` since the last look.
+    pub(super) count: [u64; 2],
 }
 
 /// The part of a primitive that a viewer sees, regardless of occlusion. `None` if there is no such part,
@@ -58,12 +60,14 @@ impl<'a> Certifier<'a> {
             region: Region::new(reach),
             stack: Vec::with_capacity(256),
             prover: Prover::new(reach.into()),
+            count: [0; 2],
         }
     }
     /// What is proved of a light, by its index in the list, as seen from a patch of a primitive, and in which precision its
     /// closed form is accurate.
     pub fn certify(&mut self, primitive: PrimitiveId, patch: &Patch, light: usize) -> (Proof<'_>, Precision) {
-        let Self { surfaces, bodies, lights, region, stack, prover } = self;
+        let Self { surfaces, bodies, lights, region, stack, prover, count } = self;
+        count[0] += 1;
         let Some(Some((shape, light))) = lights.get(light) else { return (Proof::Open, Precision::default()) };
         let own = [primitive, PrimitiveId::of_shape(*shape)];
         if own[0] == own[1] {
@@ -74,7 +78,9 @@ impl<'a> Certifier<'a> {
         let seen = prover.prove(patch, light, |within, found| {
             region.clear();
             within.half_spaces().iter().for_each(|&(normal, limit)| region.push(normal.into(), limit));
-            surfaces.bvh.search(region, stack, NODES, |primitive| {
+            let (mut left, mut met) = (NODES, 0);
+            let complete = surfaces.bvh.search(region, stack, &mut left, |primitive| {
+                met += 1;
                 if own.contains(&primitive) {
                     return true;
                 }
@@ -88,7 +94,9 @@ impl<'a> Certifier<'a> {
                     },
                     other => other,
                 })
-            })
+            });
+            count[1] += (NODES - left + met) as u64;
+            complete
         });
         (seen.proof, seen.precision)
     }

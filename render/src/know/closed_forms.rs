@@ -30,8 +30,8 @@ pub(super) struct ClosedForms {
     two: Option<Box<Occlusion<f32x16>>>,
     exact: Option<Box<Occlusion<f64x8>>>,
     waiting: Option<Ask>,
-    /// Number of lights and occluders, over all packets that asked.
-    pub(super) asked: u64,
+    /// [`RayCount::forms`](crate::bvh::RayCount::forms) since the last look.
+    pub(super) count: u64,
 }
 
 fn joined(a: V8, b: V8) -> Vec3<f32x16> {
@@ -61,7 +61,6 @@ impl ClosedForms {
     }
     /// The visible part for one more packet. `done` takes packets, sooner or later, with their parts, which may be unknown.
     pub(super) fn add(&mut self, ask: Ask, light: &Solid, solids: &[Solid], mut done: impl FnMut(&Ask, Option<X8>)) {
-        self.asked += 1 + ask.behind.len() as u64;
         if ask.precision == Precision::Double {
             done(&ask, self.alone(&ask, light, solids));
             return;
@@ -77,7 +76,9 @@ impl ClosedForms {
         }
         let [point, normal] = [0, 1].map(|k| joined(first.at[k], ask.at[k]));
         let two = self.two.get_or_insert_default();
-        if let Some(both) = two.visible(point, normal, light, &solids[first.behind.clone()]) {
+        let both = two.visible(point, normal, light, &solids[first.behind.clone()]);
+        self.count += 2 * work(&first, two.terms());
+        if let Some(both) = both {
             let both = both.to_array();
             let half = |from: usize| X8::new(std::array::from_fn(|lane| both[from + lane]));
             done(&first, Some(half(0)));
@@ -95,8 +96,18 @@ impl ClosedForms {
         }
     }
     fn alone(&mut self, ask: &Ask, light: &Solid, solids: &[Solid]) -> Option<X8> {
-        self.part(ask.at, None, light, (&solids[ask.behind.clone()], ask.precision))
+        let part = self.part(ask.at, None, light, (&solids[ask.behind.clone()], ask.precision));
+        self.count += match &self.exact {
+            Some(exact) if ask.precision == Precision::Double => 2 * work(ask, exact.terms()),
+            _ => work(ask, self.one.terms()),
+        };
+        part
     }
+}
+
+/// How long a packet of eight takes, in units of a light that nothing hides: a part that is hidden takes about as long as two.
+fn work(ask: &Ask, terms: u32) -> u64 {
+    1 + ask.behind.len() as u64 + 2 * u64::from(terms)
 }
 
 #[inline]

@@ -57,8 +57,9 @@ impl Know for Knowledge<'_> {
             }
         });
     }
-    fn take_counts(&mut self) -> [u64; 2] {
-        [&mut self.certificates.asked, &mut self.forms.asked].map(std::mem::take)
+    fn take_counts(&mut self) -> [u64; 3] {
+        let [proofs, met] = std::mem::take(&mut self.certificates.certifier.count);
+        [proofs, met, std::mem::take(&mut self.forms.count)]
     }
     /// A fraction of what the lights that are computed would contribute if nothing hid them.
     fn error_bound(&mut self, points: &Points) -> V8 {

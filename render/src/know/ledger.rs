@@ -16,8 +16,8 @@ pub(crate) trait Know {
     fn know(&mut self, group: &Group<'_>, ledger: &mut Ledger, reflected: &mut [V8; GROUP]);
     /// Sets the lanes of a packet of shading points, each of them seen in one of these pixels, in which each light is open.
     fn open_at(&mut self, points: &Points, packet: usize, pixels: &[[u32; 2]; 8], open: &mut [M8]);
-    /// [`RayCount::proofs`](crate::bvh::RayCount::proofs) and `forms` since the last call.
-    fn take_counts(&mut self) -> [u64; 2];
+    /// [`RayCount::proofs`](crate::bvh::RayCount::proofs), `met` and `forms` since the last call.
+    fn take_counts(&mut self) -> [u64; 3];
     /// A bound of the error of what is known without samples at the first shading point.
     fn error_bound(&mut self, points: &Points) -> V8;
 }

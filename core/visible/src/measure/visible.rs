@@ -56,6 +56,12 @@ impl<R: Real> Occlusion<R> {
         Self::default()
     }
 
+    /// Number of intersections that the last computation measured: its time grows with it.
+    #[must_use]
+    pub const fn terms(&self) -> u32 {
+        self.terms
+    }
+
     /// The projected solid angle Ω⊥ in [0, π] of the part of the light that the occluders leave visible at each point, on a surface with the
     /// unit normal `normal`. Both sides of a flat light count. `None` if there are more than [`OCCLUDERS`] occluders, if too many of them
     /// overlap as seen from a point, if the part is bounded by two spheres that overlap, if a polyhedron does not lie before the light as a
