@@ -2,6 +2,7 @@
 
 mod beside;
 mod command_line;
+mod draft;
 mod compare;
 mod hints;
 mod image;
