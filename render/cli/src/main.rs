@@ -2,8 +2,8 @@
 
 mod beside;
 mod command_line;
-mod draft;
 mod compare;
+mod draft;
 mod hints;
 mod image;
 mod interrupt;
