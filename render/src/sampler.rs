@@ -78,7 +78,7 @@ const fn fewest_sets(spp: u32) -> u32 {
 }
 
 /// Fewest samples of a pixel in each set of [`Sampler::Adaptive`]: a packet of 8 for the pilot.
-const FEWEST: u32 = 8;
+pub(crate) const FEWEST: u32 = 8;
 
 /// Mixes bits: the output function of SplitMix64 (Steele, Lea and Flood 2014).
 pub(crate) const fn hash64(mut bits: u64) -> u64 {

@@ -4,11 +4,12 @@
 //! `cargo run --release -p etendue-image-bits` compares; `-- SCENE` compares the images of one scene, and `-- --write "WHY"` replaces the
 //! table and adds a line to its changelog, `render/bits/CHANGELOG.md`.
 
-use etendue_render::drive::progressive::{Goal, Refinement};
+use etendue_render::drive::progressive::{Beside, Goal, Refinement};
 use etendue_render::film::Film;
 use etendue_render::{Sampler, Settings, Technique, World, drive::progressive};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
 
 /// The committed table.
 pub const TABLE: &str = include_str!("../images.txt");
@@ -63,15 +64,15 @@ pub fn rows(scene: &str) -> Vec<ImageHashes> {
     for technique in UNTIL_ERROR {
         let goal = Goal { seconds: None, error: Some(ERROR) };
         let plan = Refinement { settings: Settings { technique, ..all }, sampler: None, goal };
-        let (mut film, enough) = (None, "enough passes");
+        let (mut film, mut passes, enough) = (None, 0, "enough passes");
         let ended = progressive::render(
             &world,
             &plan,
-            &|_| (),
+            Beside { stop: &AtomicBool::new(false), progress: &|_| (), tile: None },
             |_, _| (),
             |known| {
-                film = Some(hash(&known.film));
-                if known.passes.len() < PASSES { Ok(()) } else { Err(enough.into()) }
+                (film, passes) = (Some(hash(&known.film)), passes + 1);
+                if passes < PASSES { Ok(()) } else { Err(enough.into()) }
             },
         );
         let ended = ended.map(|_| ()).or_else(|error| if error == enough { Ok(()) } else { Err(error) });

@@ -3,6 +3,7 @@
 mod beside;
 mod command_line;
 mod compare;
+mod draft;
 mod hints;
 mod image;
 mod interrupt;
@@ -74,7 +75,7 @@ fn main() -> ExitCode {
     }
     survive_limits_of_files();
     match run(arguments().command) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(code) => ExitCode::from(code),
         // the reader has closed the pipe, as `head` does: this ends the program as SIGPIPE ends others, without a message
         Err(error) if error.downcast_ref::<io::Error>().is_some_and(|e| e.kind() == io::ErrorKind::BrokenPipe) => {
             ExitCode::from(141)
@@ -101,16 +102,17 @@ fn arguments() -> Cli {
     Cli::from_arg_matches(&command.get_matches()).unwrap_or_else(|error| error.exit())
 }
 
-fn run(command: Command) -> Result<(), Box<dyn Error>> {
+/// Runs a command; returns the exit code.
+fn run(command: Command) -> Result<u8, Box<dyn Error>> {
     match command {
         Command::Render(options) => render::run(&options)?,
         Command::View(options) => view::run(&options)?,
         Command::Compare(options) => compare::run(&options)?,
-        Command::Chart(options) => chart::run(&options, &command_line())?,
+        Command::Chart(options) => return chart::run(&options, &command_line()),
         Command::List { file: Some(file), scene } => list::file(&file, scene.as_deref())?,
         Command::List { .. } => list::run()?,
     }
-    Ok(())
+    Ok(0)
 }
 
 /// The command line, for the report.

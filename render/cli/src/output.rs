@@ -196,16 +196,15 @@ impl Output {
     /// # Errors
     /// Fails if a file cannot be written; the message says what has been written.
     pub(crate) fn save_part(&self, film: &Film, identity: &Identity) -> Result<String, String> {
-        let samples = film.pixels.iter().map(|pixel| f64::from(pixel.samples));
-        let share = samples.sum::<f64>() / (film.pixels.len() as f64 * f64::from(identity.settings.spp));
-        let least = film.pixels.iter().map(|pixel| pixel.samples).min().unwrap_or(0);
-        if share == 0.0 {
+        let mean = film.pixels.iter().map(|pixel| f64::from(pixel.samples)).sum::<f64>() / film.pixels.len() as f64;
+        if mean == 0.0 {
             return Ok("no pixel was finished".to_owned());
         }
         let files = self.beside("-partial");
         files.write(film, identity)?;
-        let black = if least == 0 { ", and pixels without any are black" } else { "" };
-        Ok(format!("{} have {} of the samples{black}", files.both(), percent(share.min(1.0))))
+        let has_black = film.pixels.iter().any(|pixel| pixel.samples == 0);
+        let black = if has_black { ", and pixels without any are black" } else { "" };
+        Ok(format!("{} have {mean:.1} samples per pixel{black}", files.both()))
     }
 
     /// What to say of the files.

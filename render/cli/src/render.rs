@@ -1,7 +1,8 @@
 //! `etendue render`: renders a scene with a given number of samples, or until its error or the time is what was asked for.
 
-use crate::beside::{Beside, Cost, other_work};
+use crate::beside::{Beside as OtherImage, Cost, other_work};
 use crate::command_line::line;
+use crate::draft::Draft;
 use crate::hints::{hint, wasted, windows};
 use crate::image::ImageOptions;
 use crate::interrupt::Interrupt;
@@ -12,15 +13,18 @@ use etendue_laboratory::cost::median;
 use etendue_laboratory::options::{named, out, pool, say, whole};
 use etendue_laboratory::processor_time::processor_seconds;
 use etendue_render::drive::AutoTrial;
-use etendue_render::drive::progressive::{self, Goal, Pass, Progress, Refinement};
-use etendue_render::film::Film;
+use etendue_render::drive::progressive::{self, Beside, Goal, Pass, Progress, Refinement};
 use etendue_render::film::claim::{Claim, why_unknown};
+use etendue_render::film::{Film, Pixel};
 use etendue_render::sampler::{default_sampler, reports_variance};
+use etendue_render::scene::area::Area;
 use etendue_render::{ChoiceBy, Identity, RayCount, Sampler, Sensor, Settings, Technique, World};
 use serde_json::{Value, json};
 use std::error::Error;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 #[derive(Args)]
@@ -121,13 +125,14 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     }
     let mut output = Output::new(options.output.as_deref(), &scene, Path::new(&image.scene))?;
     output.brightness = scene.film.exposure * options.exposure.exp2();
+    let output = Arc::new(output);
     let has_sky = scene.environment.is_some();
     let only_pictures = !has_sky
         && scene.delta_lights.is_empty()
         && scene.shapes.iter().filter_map(|shape| shape.emission).all(|emission| emission.picture.is_some());
     let has_goal = plan.is_some();
     let has_portals = scene.environment.as_ref().is_none_or(|sky| !sky.portals.is_empty());
-    let beside = options.beside.map(|technique| Beside::new(technique, &output, &scene.inputs)).transpose()?;
+    let beside = options.beside.map(|technique| OtherImage::new(technique, &output, &scene.inputs)).transpose()?;
     let identity = Identity::new(&scene, settings, image.sensor);
     let exposure = identity.exposure;
 
@@ -199,7 +204,7 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
 
 /// Writes the picture of the image and another, and says what each took.
 fn show_beside(
-    beside: &Beside,
+    beside: &OtherImage,
     (film, left): (&Film, Cost),
     done: &Image,
     technique: String,
@@ -219,7 +224,7 @@ struct Session<'a> {
     identity: Identity,
     /// The same, by what `auto` takes.
     settings: Settings,
-    output: &'a Output,
+    output: &'a Arc<Output>,
     interrupt: &'a Interrupt,
 }
 
@@ -278,6 +283,9 @@ impl Session<'_> {
             Some(_) => bar.set_position(began.elapsed().as_millis() as u64),
             None => bar.inc(done),
         };
+        let draft = Draft::new(&self.identity.settings);
+        let tile = |tile: Area, pixels: &[Pixel]| draft.paste(tile, pixels);
+        let beside = Beside { stop: &AtomicBool::new(false), progress: &advance, tile: Some(&tile) };
         let aim = plan.goal.error.map_or_else(String::new, |target| format!(", {} wanted", percent(target)));
         let mut noted = began;
         let start = |known: Option<&Progress>, spp: u32| {
@@ -292,6 +300,7 @@ impl Session<'_> {
             if plan.goal.seconds.is_none() {
                 bar.set_position(0);
             }
+            draft.keep(self.interrupt, self.output, &self.identity);
         };
         let finish = |known: &Progress| {
             let (spp, sampler) = (u32::try_from(known.spp).unwrap_or(u32::MAX), known.passes[0].sampler);
@@ -299,7 +308,7 @@ impl Session<'_> {
             let identity = Identity { settings, ..self.identity.clone() };
             self.output.save(self.interrupt, &known.film, &identity, known.error)
         };
-        let done = progressive::render(self.world, plan, &advance, start, finish);
+        let done = progressive::render(self.world, plan, beside, start, finish);
         bar.finish_and_clear();
         let Progress { film, error, spp, passes, seconds, rays } = done?;
         let largest = passes.iter().max_by_key(|p| p.spp).unwrap_or_else(|| unreachable!("there is a first pass"));

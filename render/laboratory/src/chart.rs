@@ -214,14 +214,14 @@ fn check_page(page: &Path) -> Result<(), String> {
     Ok(())
 }
 
-/// Measures, writes the report and prints a summary.
+/// Measures, writes the report and prints a summary. Returns the exit code: 0, or that of the signal that ended it early.
 ///
 /// # Errors
 /// Fails if a scene or reference cannot be read, or a file cannot be written, or if another page has the name of the report.
-pub fn run(options: &Options, command: &str) -> Result<(), Box<dyn Error>> {
+pub fn run(options: &Options, command: &str) -> Result<u8, Box<dyn Error>> {
     let page = options.output.join("report.html");
     check_page(&page)?;
-    let stop = interrupt()?;
+    let (stop, signal) = interrupt()?;
     let outcome = measure(options, &stop)?;
     let figures: Vec<_> = outcome.summaries.iter().map(charts::all).collect();
     let stems: Vec<String> = outcome.summaries.iter().map(|s| stem(&outcome.summaries, &s.scene)).collect();
@@ -233,7 +233,7 @@ pub fn run(options: &Options, command: &str) -> Result<(), Box<dyn Error>> {
     }
     files::replace(&page, report::page(&outcome, &figures, &stems, command).as_bytes())?;
     print(&outcome, &page)?;
-    Ok(())
+    Ok(u8::try_from(signal.load(Ordering::Relaxed)).unwrap_or(u8::MAX))
 }
 
 /// Prints what each scene's series take to reach errors, and the notes; first that they are not complete.

@@ -2,7 +2,7 @@
 
 use std::io;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
 
 /// Calls `handler` for each signal that asks the program to end, with the exit code that shells use for it: 130 for Ctrl-C, 143 for
 /// SIGTERM and 129 for a terminal that is closed. A signal that was ignored when the program began stays so, as `nohup` wants it.
@@ -60,17 +60,19 @@ pub fn on_end(mut handler: impl FnMut(i32) + Send + 'static) -> io::Result<()> {
     ctrlc::set_handler(move || handler(130)).map_err(io::Error::other)
 }
 
-/// A flag that Ctrl-C sets: measuring stops after the current image. A second Ctrl-C ends the program.
+/// A flag that Ctrl-C sets: measuring stops after the current image. A second Ctrl-C ends the program. The number is the exit code that the
+/// signal asks for; 0 without one.
 ///
 /// # Errors
 /// Fails if the signal handler cannot be installed.
-pub(crate) fn interrupt() -> io::Result<Arc<AtomicBool>> {
-    let flag = Arc::new(AtomicBool::new(false));
-    let set = Arc::clone(&flag);
-    on_end(move |code| {
-        if set.swap(true, Ordering::Relaxed) {
-            std::process::exit(code);
+pub(crate) fn interrupt() -> io::Result<(Arc<AtomicBool>, Arc<AtomicI32>)> {
+    let (flag, asked) = <(Arc<AtomicBool>, Arc<AtomicI32>)>::default();
+    let (set, code) = (Arc::clone(&flag), Arc::clone(&asked));
+    on_end(move |signal| {
+        if code.swap(signal, Ordering::Relaxed) != 0 {
+            std::process::exit(signal);
         }
+        set.store(true, Ordering::Relaxed);
     })?;
-    Ok(flag)
+    Ok((flag, asked))
 }

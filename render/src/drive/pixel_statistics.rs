@@ -37,7 +37,8 @@ pub(super) struct Statistics {
 /// What the camera sees directly in a pixel: lights and the sky, whose outlines are most of its variance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Outline {
-    /// Variance of the means of four samples each, summed over the channels.
+    /// Variance of the means of four samples each, summed over the channels; at least an eighth of what it would be if samples were independent,
+    /// since two means are often alike by chance. (Four strata across an edge differ in one sample at most: a sixth to a quarter.)
     pub(super) variance: f64,
     /// The part of the samples that cause it.
     pub(super) part: f32,
@@ -87,6 +88,9 @@ impl Statistics {
     }
 }
 
+/// The variance of the mean of four samples at the edge of something seen directly, relative to that of independent samples, at least.
+const OUTLINE: f64 = 1.0 / 8.0;
+
 /// n^−1.5
 pub(super) fn fall(n: f64) -> f64 {
     (n * n.sqrt()).recip()
@@ -104,6 +108,8 @@ pub(super) struct StatisticsSum {
     part: Statistics,
     halves: Halves,
     seen_halves: Halves,
+    /// Sum of squared deviations of what is seen directly from the mean of its four samples.
+    within: f64,
     /// Sum of squared differences of successive samples of the same light.
     between: f64,
     /// The sum of reflected light for each light, times its squared share.
@@ -172,6 +178,10 @@ impl StatisticsSum {
         self.seen_halves.push(seen);
         for (sum, lanes) in self.part.seen[self.sets - 1].iter_mut().zip(channels(seen)) {
             *sum += lanes.iter().copied().map(f64::from).sum::<f64>();
+            for four in lanes.chunks(4) {
+                let mean = four.iter().copied().map(f64::from).sum::<f64>() / 4.0;
+                self.within += four.iter().map(|&x| (f64::from(x) - mean).powi(2)).sum::<f64>();
+            }
         }
     }
 }
@@ -226,7 +236,9 @@ impl Accumulator for StatisticsSum {
         let sets = all.len().max(1) as u32;
         all.clear();
         (part.variance, part.part) = (self.halves.variance(), self.halves.part());
-        part.outline = Outline { variance: self.seen_halves.variance(), part: self.seen_halves.part() };
+        // a mean of four independent samples has a quarter of the variance that three degrees of freedom each tell
+        let least = OUTLINE * self.within / (12.0 * self.seen_halves.squares[2].max(1.0));
+        part.outline = Outline { variance: self.seen_halves.variance().max(least), part: self.seen_halves.part() };
         if self.lights > APART && part.packets > 0 {
             // a difference of two samples has 16 times the variance of the mean of four
             part.variance += self.between / f64::from(16 * 4 * part.packets * sets);
@@ -311,6 +323,19 @@ mod tests {
         // of eight means of four samples, three are 4 and 2: 8/7 · 3/8 · 5/8 · (16 + 4)
         let expected = 8.0 / 7.0 * 15.0 / 64.0 * 20.0;
         assert!((found.outline.variance / expected - 1.0).abs() < 1e-14, "{}", found.outline.variance);
+    }
+    /// An edge that means of four samples do not tell, since three of each four see a light, has the variance of independent samples over eight.
+    #[test]
+    fn edges_are_told_where_means_are_alike() {
+        let mut sum = StatisticsSum::new(0);
+        sum.begin(0);
+        let seen = packet(|k| [if k % 4 < 3 { 4.0 } else { 0.0 }, 0.0, 0.0]);
+        sum.push_packet(seen, [seen, V8::default()], None);
+        // 4 of samples, a quarter of that of independent means
+        assert_eq!(sum.finish().outline.variance, 4.0 / 4.0 / 8.0);
+        sum.begin(0);
+        sum.push_packet(packet(|_| [4.0; 3]), [packet(|_| [4.0; 3]), V8::default()], None);
+        assert_eq!(sum.finish().outline.variance, 0.0);
     }
     /// Allocated samples are compared in pairs of the same light, times its squared share, without what the camera sees.
     #[test]

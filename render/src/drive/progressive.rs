@@ -1,11 +1,14 @@
 //! Renders an image pass by pass until its error or the time is what was asked for.
 //!
 //! Each pass is a whole image with a seed of its own. A pass of n samples has a squared error of about n^−p, with p = 1.5 for nets
-//! and p = 1 for independent samples, so passes are averaged with weights n^p. The weights depend on the numbers of samples alone,
+//! and p = 1 for independent samples, so passes are averaged with weights n^p. Small passes often have a much larger error than that, so
+//! a pass of nets that has eight times the weight of all before it takes their place. The weights depend on the numbers of samples alone,
 //! never on the samples. The number of samples of a pass, and the decision to stop, depend on the time, or on the error of the whole
-//! image so far; to that a pixel contributes no more than its share in the sum over all pixels.
+//! image so far; to that a pixel contributes no more than its share in the sum over all pixels. `schedule` decides both.
 
-use super::view::Listener;
+mod schedule;
+
+use super::view::{Begun, Listener};
 use super::world::World;
 use crate::bvh::RayCount;
 use crate::film::claim::{Claim, Foreseen, why_unknown};
@@ -14,6 +17,9 @@ use crate::sampler::{Sampler, default_sampler, hash64, reports_variance};
 use crate::scene::area::{self, Area};
 use crate::scene::limits::MOST_SAMPLES;
 use crate::settings::Settings;
+pub use schedule::at_most;
+use schedule::{Schedule, Timing};
+use std::cell::Cell;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
@@ -56,22 +62,13 @@ pub struct Progress {
     pub rays: RayCount,
 }
 
-/// Samples per pixel of the first pass.
-const FIRST: u32 = 16;
-/// A pass has at most this many times the samples of the largest so far, so that its time and error can be predicted.
-const GROWTH: u32 = 8;
-/// Unless the time ends within this many times such a pass.
-const STRETCH: f64 = 2.5;
-/// A pass of fewer samples than this fraction of the largest so far is not worth its time: it has less than 2 % of the weight.
-const WORTH: f64 = 1.0 / 16.0;
-/// The greatest number of passes after which an error is not known that seems to be reached, and stays unknown.
-const PATIENCE: usize = 32;
-/// The number of samples per pixel after which an error that is still uncertain is given up, if no time ends the rendering.
-const MOST_UNCERTAIN: u32 = 1 << 17;
-/// The part of the remaining time that a pass may be predicted to take.
-const SPARE: f64 = 0.97;
-/// Samples per second and thread that the first pass may count on; it may be slower by a factor of 4.
-const SLOW: f64 = 1e6;
+/// A pass of nets takes the place of all before it if it has at least so many times their weight: they have a ninth at most.
+const LEFT_OUT: f64 = 8.0;
+
+/// Whether what is known, of this weight, is no part of the image any more after a pass of the weight `own`.
+fn is_left_out(weight: f64, own: f64, power: f64) -> bool {
+    power > 1.0 && own >= LEFT_OUT * weight
+}
 
 /// What to render until when.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -157,13 +154,11 @@ pub struct Beside<'a> {
 /// An image that is refined pass by pass, each of the whole or of a part.
 ///
 /// Passes that are too small for the sampler of larger ones are a preview: they are no part of the image as soon as there is a larger one,
-/// since their error is too large for their weight.
+/// since their error is too large for their weight; nor are passes of nets as soon as one has eight times their weight.
 #[derive(Clone, Debug)]
 pub struct Refined {
     plan: Refinement,
-    counts: Vec<u32>,
-    /// The least number of samples with the sampler of large passes.
-    full: u32,
+    schedule: Schedule,
     /// See [`View::foreseen`](crate::View::foreseen).
     foreseen: Foreseen,
     /// The sum of the weights of all passes: of all pixels, or of each as soon as one pass was of a part.
@@ -187,7 +182,8 @@ impl Refined {
             counts.iter().copied().find(|&n| plan.sampler_of(n) == plan.sampler_of(MOST_SAMPLES)).unwrap_or(counts[0]);
         let view = world.view(&plan.settings);
         let (foreseen, plan) = (view.foreseen(), Refinement { settings: *view.settings(), ..*plan });
-        Ok(Self { plan, counts, full, foreseen, weights: Vec::new(), index: 0, pace: 0.0, known: None })
+        let schedule = Schedule { goal: plan.goal, power: plan.power(), counts, full, timing: None };
+        Ok(Self { plan, schedule, foreseen, weights: Vec::new(), index: 0, pace: 0.0, known: None })
     }
 
     /// The settings of the passes but for `spp` and `sampler`, by what `auto` takes.
@@ -207,21 +203,10 @@ impl Refined {
     #[must_use]
     pub fn lasting(&self, seconds: f64, area: Area) -> u32 {
         let last = self.known.as_ref().and_then(|known| known.passes.last());
-        let Some(last) = last else { return self.counts[0] };
-        let counts = self.following(last.spp);
-        let most = self.most_after(last.spp).min(seconds / (self.pace * area::count(area) as f64));
-        at_most(counts, most.max(f64::from(self.full))).unwrap_or(counts[0])
-    }
-
-    /// The numbers of samples that a pass after one of so many may have.
-    fn following(&self, spp: u32) -> &[u32] {
-        let full = self.counts.partition_point(|&n| n < self.full);
-        if spp < self.full { &self.counts } else { &self.counts[full..] }
-    }
-
-    /// The greatest number of samples of a pass, if the largest so far had so many.
-    fn most_after(&self, largest: u32) -> f64 {
-        f64::from(largest.saturating_mul(GROWTH).max(self.full))
+        let Schedule { counts, full, .. } = &self.schedule;
+        let Some(last) = last else { return counts[0] };
+        let most = self.schedule.most_after(last.spp).min(seconds / (self.pace * area::count(area) as f64));
+        at_most(self.schedule.following(last.spp), most.max(f64::from(*full))).unwrap_or(counts[0])
     }
 
     /// Renders one more pass, of `spp` samples for each pixel of an area that consists of [tiles](Settings::is_of_tiles), and returns what
@@ -230,40 +215,69 @@ impl Refined {
     /// # Panics
     /// Panics if the first pass is not of the whole image, or the first with the sampler of large ones.
     pub fn pass(&mut self, world: &World, spp: u32, area: Area, beside: Beside<'_>) -> Option<&Progress> {
+        self.pass_up_to(world, spp, area, beside, None)
+    }
+
+    /// The same, but `grown` decides how many samples there are while it is rendered; it also receives the seconds until its pilot had ended,
+    /// and those until now.
+    fn pass_up_to(
+        &mut self,
+        world: &World,
+        spp: u32,
+        area: Area,
+        beside: Beside<'_>,
+        grown: Option<&dyn Fn(Begun, [f64; 2]) -> u32>,
+    ) -> Option<&Progress> {
         let (settings, began) = (self.plan.settings, Instant::now());
-        let of_pass =
-            Settings { spp, sampler: self.plan.sampler_of(spp), seed: seed(settings.seed, self.index), ..settings };
+        let (sampler, seed) = (self.plan.sampler_of(spp), seed(settings.seed, self.index));
+        let of_pass = Settings { spp, sampler, seed, ..settings };
         let Beside { stop, progress, tile } = beside;
-        let before = &*self;
+        let (before, is_whole) = (&*self, area == settings.whole());
         let listener = tile.map(|tile| {
-            move |area: Area, pixels: &[Pixel], spp: u32| tile(area, &before.joined(pixels, area, spp, of_pass.sampler))
+            move |area: Area, pixels: &[Pixel], spp: u32| {
+                let pass = Pass { spp, sampler, seed, seconds: 0.0 };
+                tile(area, &before.joined(pixels, area, &pass, is_whole));
+            }
         });
         let view = world.view(&of_pass).stopped_by(stop);
         let view = listener.as_ref().map_or(view, |listener| view.told_to(listener as Listener<'_>));
-        let (pixels, rays) = view.render(area, progress);
+        let pilot = Cell::new((0, 0.0));
+        let decide = |begun: Begun| {
+            let now = began.elapsed().as_secs_f64();
+            if begun.spp == 0 {
+                pilot.set((begun.pilot, now));
+            }
+            grown.map_or(spp, |grown| grown(begun, [pilot.get().1, now]))
+        };
+        let decide = grown.is_some().then_some(&decide as &dyn Fn(Begun) -> u32);
+        let (pixels, rays, spp) = view.render_up_to(area, progress, decide);
         if stop.load(Ordering::Relaxed) {
             return None;
         }
         self.index += 1;
         let seconds = began.elapsed().as_secs_f64();
         self.pace = seconds / (f64::from(spp) * area::count(area) as f64);
-        let pass = Pass { spp, sampler: of_pass.sampler, seed: of_pass.seed, seconds };
+        if spp >= self.schedule.full && is_whole {
+            self.schedule.timing = Some(Timing::new(spp, seconds, pilot.get()));
+        }
+        let pass = Pass { spp, sampler, seed, seconds };
         let (own, whole) = (f64::from(spp).powf(self.plan.power()), settings.whole());
+        let joins = self.joins(&pass, is_whole);
         let mean = match self.known.take() {
-            Some(mut mean) if mean.passes[0].sampler == pass.sampler => {
-                if area != whole && self.weights.len() == 1 {
+            Some(mut mean) if joins => {
+                if !is_whole && self.weights.len() == 1 {
                     self.weights = vec![self.weights[0]; area::count(whole)];
                 }
                 add(&mut mean.film, &mut self.weights, &pixels, area, own);
-                mean.spp += if area == whole { spp.into() } else { 0 };
+                mean.spp += if is_whole { spp.into() } else { 0 };
                 mean.passes.push(pass);
                 let claim = Claim::new(&mean.film, &self.foreseen, mean.spp);
                 mean.error = claim.map(|claim| claim.of_images(images(&mean.passes, self.plan.power())));
                 Progress { seconds: mean.seconds + seconds, rays: sum(mean.rays, rays), ..mean }
             }
-            // the first pass with the sampler of all that follow
+            // the first pass with the sampler of all that follow, or one beside which all before it count little
             earlier => {
-                assert_eq!(area, whole, "the first pass is of the whole image");
+                assert!(is_whole, "the first pass is of the whole image");
                 self.weights = vec![own];
                 let (before, rays) = earlier.map_or((0.0, rays), |mean| (mean.seconds, sum(mean.rays, rays)));
                 let film = Film { width: settings.width, height: settings.height, pixels };
@@ -274,12 +288,17 @@ impl Refined {
         Some(self.known.insert(mean))
     }
 
+    /// Whether a pass is averaged with what is known.
+    fn joins(&self, Pass { spp, sampler, .. }: &Pass, is_whole: bool) -> bool {
+        let (own, power) = (f64::from(*spp).powf(self.plan.power()), self.plan.power());
+        let has_sampler = self.known.as_ref().is_some_and(|known| known.passes[0].sampler == *sampler);
+        has_sampler && !(is_whole && self.weights.iter().all(|&weight| is_left_out(weight, own, power)))
+    }
+
     /// Pixels of an area in a pass of so many samples, joined to what is known of them.
-    fn joined(&self, pixels: &[Pixel], area: Area, spp: u32, sampler: Sampler) -> Vec<Pixel> {
-        let Some(known) = self.known.as_ref().filter(|known| known.passes[0].sampler == sampler) else {
-            return pixels.to_vec();
-        };
-        let (own, width) = (f64::from(spp).powf(self.plan.power()), known.film.width as usize);
+    fn joined(&self, pixels: &[Pixel], area: Area, pass: &Pass, is_whole: bool) -> Vec<Pixel> {
+        let Some(known) = self.known.as_ref().filter(|_| self.joins(pass, is_whole)) else { return pixels.to_vec() };
+        let (own, width) = (f64::from(pass.spp).powf(self.plan.power()), known.film.width as usize);
         let join = |(pixel, [x, y]): (&Pixel, [u32; 2])| {
             let index = y as usize * width + x as usize;
             let before = self.weights[index.min(self.weights.len() - 1)];
@@ -291,41 +310,44 @@ impl Refined {
     }
 }
 
-/// Renders an image in passes until its goal is reached. `progress` receives the number of newly finished pixels of a pass, `start`
-/// what is known before each pass and its number of samples, and `finish` what is known after it.
+/// Renders an image in passes until its goal is reached. `start` receives what is known before each pass and its number of samples, which grows
+/// if there is time, and `finish` what is known after it.
 ///
 /// The first pass always completes. After it, a pass begins only if it is predicted to end in time.
 ///
 /// # Errors
 /// Fails if no number of samples has a variance, but the goal is an error; if `finish` fails; if the error of the image is
-/// unknown because it is black, or too bright for single precision; or if no number of samples reaches it, and no time ends the rendering.
+/// unknown because it is black, or too bright for single precision; if no number of samples reaches it, and no time ends the rendering; or
+/// if it is stopped.
 pub fn render(
     world: &World,
     plan: &Refinement,
-    progress: &(dyn Fn(u64) + Sync),
+    beside: Beside<'_>,
     mut start: impl FnMut(Option<&Progress>, u32),
     mut finish: impl FnMut(&Progress) -> Result<(), String>,
 ) -> Result<Progress, String> {
     let (settings, goal) = (plan.settings, plan.goal);
-    let pixels = f64::from(settings.width) * f64::from(settings.height);
     let mut refined = Refined::new(world, plan)?;
-    let (counts, full, never) = (&refined.counts, refined.full, AtomicBool::new(false));
-    let beside = Beside { stop: &never, progress, tile: None };
     let began = Instant::now();
-    // a preview only measures the time
-    let mut next = at_most(counts, first(goal, pixels)).filter(|&n| n >= full).unwrap_or(counts[0]);
+    let mut next = (refined.schedule.first(), f64::INFINITY);
     loop {
-        start(refined.known(), next);
-        refined.pass(world, next, settings.whole(), beside);
+        start(refined.known(), next.0);
+        let schedule = refined.schedule.clone();
+        let grown = |begun: Begun, [pilot, now]: [f64; 2]| {
+            schedule.grown(next, begun, [pilot, now, began.elapsed().as_secs_f64()])
+        };
+        let grown = goal.seconds.is_some().then_some(&grown as &dyn Fn(Begun, [f64; 2]) -> u32);
+        if refined.pass_up_to(world, next.0, settings.whole(), beside, grown).is_none() {
+            return Err("the rendering was stopped".to_owned());
+        }
         let Some(mut mean) = refined.known.take() else { unreachable!("a pass has ended") };
         mean.seconds = began.elapsed().as_secs_f64();
         if let (Goal { error: Some(target), seconds: None }, Some(claim)) = (goal, mean.error) {
             claim.check(target)?;
         }
         finish(&mean)?;
-        let (weight, counts) = (refined.weights[0], refined.following(next));
-        match decide(&mean, goal, weight, plan.power(), counts, full, began.elapsed().as_secs_f64()) {
-            Some(spp) => next = spp,
+        match refined.schedule.next(&mean, refined.weights[0], began.elapsed().as_secs_f64()) {
+            Some(following) => next = following,
             None if goal.error.is_some() && mean.error.is_none() => {
                 return Err(format!("the relative error is not known, because {}", why_unknown(&mean.film, true)));
             }
@@ -333,68 +355,6 @@ pub fn render(
         }
         refined.known = Some(mean);
     }
-}
-
-/// Greatest number of samples that the first pass may have: [`FIRST`], or fewer if they might take more than a quarter of the time.
-fn first(goal: Goal, pixels: f64) -> f64 {
-    let threads = rayon::current_num_threads() as f64;
-    goal.seconds.map_or(f64::from(FIRST), |s| (s / 4.0 * threads * SLOW / pixels).min(f64::from(FIRST)))
-}
-
-/// The greatest of increasing `counts` that is at most `n`; `None` if all are greater.
-#[must_use]
-pub fn at_most(counts: &[u32], n: f64) -> Option<u32> {
-    counts.iter().copied().rfind(|&count| f64::from(count) <= n)
-}
-
-fn at_least(counts: &[u32], n: f64) -> Option<u32> {
-    counts.iter().copied().find(|&count| f64::from(count) >= n)
-}
-
-/// The number of samples of the next pass; `None` if the goal is reached, or cannot be approached in time. `full` is the least number
-/// with the sampler of large passes.
-fn decide(
-    mean: &Progress,
-    goal: Goal,
-    weight: f64,
-    power: f64,
-    counts: &[u32],
-    full: u32,
-    seconds: f64,
-) -> Option<u32> {
-    let largest = mean.passes.iter().map(|p| p.spp).max()?;
-    let last = mean.passes.last()?;
-    let most = f64::from(largest.saturating_mul(GROWTH).max(full));
-    let (mut next, mut wanted) = (most, f64::INFINITY);
-    if let Some(target) = goal.error {
-        let claim = mean.error?;
-        let excess = claim.excess(target);
-        let is_uncertain = claim.uncertain().is_some();
-        if excess <= 1.0 && (!is_uncertain || mean.passes.len() >= PATIENCE) {
-            return None;
-        }
-        if is_uncertain && goal.seconds.is_none() {
-            if mean.spp >= MOST_UNCERTAIN.into() {
-                return None;
-            }
-            next = next.min(MOST_UNCERTAIN.into());
-        }
-        // the squared random error is c / Σ n^power; where it is uncertain, passes like the largest tell it
-        let missing = weight * (excess - 1.0).max(0.0);
-        let least = if is_uncertain { largest } else { last.spp };
-        let needed = at_least(counts, missing.powf(power.recip()).max(f64::from(least)));
-        wanted = needed.map_or(wanted, f64::from);
-        next = next.min(wanted);
-    }
-    if let Some(time) = goal.seconds {
-        let left = (time - seconds) * SPARE * f64::from(last.spp) / last.seconds;
-        // what would be left after the greatest pass is taken in the same, unless it is much
-        next = if next >= most && left <= STRETCH * most { left.min(wanted) } else { next.min(left) };
-        if next < f64::from(largest) * WORTH {
-            return None;
-        }
-    }
-    at_most(counts, next)
 }
 
 /// A seed for each pass, that of the first being the seed itself: SplitMix64 (Steele, Lea and Flood 2014).

@@ -21,9 +21,28 @@ use crate::technique::Technique;
 use rayon::prelude::*;
 use std::fmt::{self, Debug, Formatter};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
 
 /// Greatest number of tiles that are looked at to bound what closed forms leave.
 const BOUNDED: usize = 16;
+
+/// What a pass has rendered when it decides how many samples per pixel there are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Begun {
+    /// Samples per pixel of the pilot.
+    pub(super) pilot: u32,
+    /// Samples per pixel of the tiles that are finished, if any are.
+    pub(super) spp: u32,
+    /// The part of the time after the pilot that these take by their counts.
+    pub(super) part: f64,
+    /// Seconds that they took after the pilot.
+    pub(super) seconds: f64,
+}
+
+/// Whether a tile is one of the eighth that tells how fast samples are taken: no two in a row or column of eight.
+const fn is_scattered([x, y, ..]: Area) -> bool {
+    (x / Settings::TILE + 3 * (y / Settings::TILE)) % 8 == 3
+}
 
 /// A function that is called with each finished tile: its area, its pixels row by row, and their mean number of samples.
 pub type Listener<'a> = &'a (dyn Fn(Area, &[Pixel], u32) + Sync);
@@ -50,6 +69,8 @@ pub struct View<'a> {
     settings: Settings,
     /// Samples per pixel of the image that decide what is worth knowing: a trial takes fewer.
     worth: u32,
+    /// Packets of the pilot, if that has been rendered.
+    pilot: Option<u32>,
     trial: Option<AutoTrial>,
     stop: Option<&'a AtomicBool>,
     told: Option<Told<'a>>,
@@ -64,7 +85,8 @@ impl World {
         assert_eq!(settings.check(), Ok(()));
         let camera = Camera::new(&self.camera, settings.width, settings.height);
         let worth = settings.spp;
-        let view = View { world: self, camera, settings: *settings, worth, trial: None, stop: None, told: None };
+        let (trial, stop, told) = (None, None, None);
+        let view = View { world: self, camera, settings: *settings, worth, pilot: None, trial, stop, told };
         if settings.technique != Technique::Auto {
             return view;
         }
@@ -246,25 +268,65 @@ impl View<'_> {
     /// # Panics
     /// Panics if the area does not consist of tiles.
     pub fn render(&self, area: Area, progress: &(dyn Fn(u64) + Sync)) -> (Vec<Pixel>, RayCount) {
-        assert!(self.settings.is_of_tiles(area));
-        let (pilot, (mut pixels, rays)) = match self.settings.sampler {
-            Sampler::Adaptive => {
-                let (pilot, first) = self.pilot(area);
-                let (pixels, mut rays) = self.rest(&PixelCounts::new(&self.settings, area, &pilot), progress);
-                rays += first;
-                (pilot, (pixels, rays))
-            }
-            Sampler::Independent => (Vec::new(), self.pixels::<Moments>(area, progress)),
-            _ => (Vec::new(), self.pixels::<Sum>(area, progress)),
-        };
-        self.fill(&mut pixels, &pilot);
+        let (pixels, rays, _) = self.render_up_to(area, progress, None);
         (pixels, rays)
     }
 
-    /// Renders the samples that follow a pilot.
-    fn rest(&self, counts: &PixelCounts<'_>, progress: &(dyn Fn(u64) + Sync)) -> (Vec<Pixel>, RayCount) {
+    /// Like [`View::render`], but with [`Sampler::Adaptive`] `grown` decides how many samples per pixel there are: first after the pilot, for a few
+    /// scattered tiles, and after these for the others. It may depend on time, never on samples. Returns the mean number, too.
+    ///
+    /// # Panics
+    /// Panics if the area does not consist of tiles, or if the image cannot have so many samples.
+    pub(super) fn render_up_to(
+        &self,
+        area: Area,
+        progress: &(dyn Fn(u64) + Sync),
+        grown: Option<&dyn Fn(Begun) -> u32>,
+    ) -> (Vec<Pixel>, RayCount, u32) {
+        assert!(self.settings.is_of_tiles(area));
+        let mut pixels = vec![Pixel::default(); area::count(area)];
+        let (mut pilot, mut spp) = (Vec::new(), self.settings.spp);
+        let rays = match self.settings.sampler {
+            Sampler::Adaptive => {
+                let (found, mut rays) = self.pilot(area);
+                pilot = found;
+                let plan = self.plan();
+                let mut begun = Begun { pilot: 8 * plan.pilot * plan.sets, spp: 0, part: 0.0, seconds: 0.0 };
+                for is_first in if grown.is_some() { &[true, false][..] } else { &[false] } {
+                    let spp_now = grown.map_or(spp, |grown| grown(begun));
+                    let settings = Settings { spp: spp_now, ..self.settings };
+                    assert_eq!(settings.check(), Ok(()));
+                    let view = Self { settings, pilot: Some(plan.pilot), ..*self };
+                    let counts = PixelCounts::new(&settings, area, &pilot);
+                    let is_now = |tile: Area| grown.is_none() || is_scattered(tile) == *is_first;
+                    let (part, start) = (counts.part(&is_now), Instant::now());
+                    rays += view.rest(&counts, progress, &is_now, &mut pixels);
+                    begun = Begun { spp: spp_now, part, seconds: start.elapsed().as_secs_f64(), ..begun };
+                    spp = if *is_first {
+                        spp_now
+                    } else {
+                        (f64::from(spp) + part * (f64::from(spp_now) - f64::from(spp))).round() as u32
+                    };
+                }
+                rays
+            }
+            Sampler::Independent => self.pixels::<Moments>(area, progress, &mut pixels),
+            _ => self.pixels::<Sum>(area, progress, &mut pixels),
+        };
+        self.fill(&mut pixels, &pilot);
+        (pixels, rays, spp)
+    }
+
+    /// Renders the samples that follow a pilot in some tiles.
+    fn rest(
+        &self,
+        counts: &PixelCounts<'_>,
+        progress: &(dyn Fn(u64) + Sync),
+        is_now: &dyn Fn(Area) -> bool,
+        pixels: &mut [Pixel],
+    ) -> RayCount {
         let (weights, plan) = (counts.weights(), self.plan());
-        self.tiles(counts.area, &|renderer, tile| {
+        self.tiles(counts.area, is_now, pixels, &|renderer, tile| {
             let pixels = counts.rest(renderer, tile, weights.as_ref(), &plan);
             self.tell(tile, &pixels);
             progress(pixels.len() as u64);
@@ -290,13 +352,16 @@ impl View<'_> {
     }
 
     fn plan(&self) -> SamplePlan {
+        let plan = SamplePlan::new(&self.settings);
         // after a pilot that is too small for the lights, all samples choose among them at random
-        SamplePlan::new(&self.settings).with_pilot(self.asked_of_a_pilot().unwrap_or(0))
+        let before = || plan.with_pilot(self.asked_of_a_pilot().unwrap_or(0));
+        self.pilot.map_or_else(before, |packets| plan.after_pilot(packets))
     }
 
     fn pilot(&self, area: Area) -> (Vec<Statistics>, RayCount) {
         let SamplePlan { sets, pilot, .. } = self.plan();
-        self.tiles(area, &|renderer, area| {
+        let mut all = vec![Statistics::default(); area::count(area)];
+        let rays = self.tiles(area, &|_| true, &mut all, &|renderer, area| {
             renderer.begin(area);
             let parts = renderer.parts(area, pilot, 0..sets, None, |_| [0, pilot]);
             if let Some(Told(listener)) = self.told {
@@ -304,7 +369,8 @@ impl View<'_> {
                 listener(area, &pixels, 8 * pilot * sets);
             }
             parts
-        })
+        });
+        (all, rays)
     }
 
     /// Tells of a tile that has all of its samples.
@@ -315,8 +381,8 @@ impl View<'_> {
     }
 
     /// The same number of samples for each pixel.
-    fn pixels<V: Sample>(&self, area: Area, progress: &(dyn Fn(u64) + Sync)) -> (Vec<Pixel>, RayCount) {
-        self.tiles(area, &|renderer, area| {
+    fn pixels<V: Sample>(&self, area: Area, progress: &(dyn Fn(u64) + Sync), pixels: &mut [Pixel]) -> RayCount {
+        self.tiles(area, &|_| true, pixels, &|renderer, area| {
             let pixels = renderer.all(area, PixelSum::<V>::default());
             self.tell(area, &pixels);
             progress(pixels.len() as u64);
@@ -333,13 +399,16 @@ impl View<'_> {
         TileRenderer::new(self.world, &self.settings, self.camera, exposure, know, is_counted)
     }
 
-    /// Calls `of` for each tile in parallel and assembles the rows it returns to an image.
+    /// Calls `of` for each tile that is chosen, in parallel, and puts the rows it returns into those of the area.
     fn tiles<T: Clone + Default + Send>(
         &self,
         area: Area,
+        is_now: &dyn Fn(Area) -> bool,
+        pixels: &mut [T],
         of: &(dyn Fn(&mut TileRenderer, Area) -> Vec<T> + Sync),
-    ) -> (Vec<T>, RayCount) {
+    ) -> RayCount {
         let rendered: Vec<_> = tiles(area)
+            .filter(|&tile| is_now(tile))
             .collect::<Vec<_>>()
             .into_par_iter()
             .map_init(
@@ -353,12 +422,11 @@ impl View<'_> {
                 },
             )
             .collect();
-        let mut pixels = vec![T::default(); area::count(area)];
         let mut rays = RayCount::default();
         for (part, tile, count) in rendered {
-            area::paste(&mut pixels, area, part, tile);
+            area::paste(pixels, area, part, tile);
             rays += count;
         }
-        (pixels, rays)
+        rays
     }
 }

@@ -167,7 +167,7 @@ fn an_interrupted_run_leaves_a_report() {
     let child = folder.command(&command).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     until("more images are measured", || has_lines(before.lines().count() + 3));
     assert!(Command::new("kill").args(["-TERM", &child.id().to_string()]).status().unwrap().success());
-    let (out, _) = text(&child.wait_with_output().unwrap(), 0);
+    let (out, _) = text(&child.wait_with_output().unwrap(), 143);
     assert!(out.starts_with("stopped early: ") && out.contains("3 measurements come from an earlier run"), "{out}");
     assert!(fs::read_to_string(&table).unwrap().starts_with(&before));
     assert!(folder.read("out/report.html").contains("stopped early"));

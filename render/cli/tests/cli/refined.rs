@@ -32,19 +32,21 @@ fn the_error_asked_for_is_reached() {
         assert!((measured / claimed - 1.0).abs() < 0.2, "{scene}: {claimed} claimed, {measured} measured");
         let passes = report["passes"].as_array().unwrap();
         let spp: Vec<u64> = passes.iter().map(|p| p["spp"].as_u64().unwrap()).collect();
-        assert_eq!((spp[0], spp.iter().sum::<u64>()), (16, report["spp"].as_u64().unwrap()));
-        assert!(spp.windows(2).all(|w| w[0] <= w[1] && w[1] <= 8 * w[0]), "{spp:?}");
+        // the first of 16 is no part of the image beside one of 64 and more
+        assert!(spp[0] >= 16 && spp.iter().sum::<u64>() == report["spp"].as_u64().unwrap(), "{spp:?}");
+        assert!(spp.windows(2).all(|w| w[0] <= w[1] && w[1] < 4 * w[0]), "{spp:?}");
         assert_eq!(keys(&passes[0]), ["sampler", "seconds", "seed", "spp"]);
-        assert_eq!((&report["sampler"], &passes[0]["seed"]), (&"adaptive".into(), &0.into()));
+        assert_eq!((&report["sampler"], passes[0]["seed"] == 0), (&"adaptive".into(), spp[0] == 16));
     }
-    // several passes, and the same in percent
+    // in percent, with another seed
     let (claimed, measured, report) = claimed_and_measured("quads", &["--error", cases("0.4%", "0.2%"), "--seed", "5"]);
     assert!(
         claimed <= cases(0.004, 0.002) && (measured / claimed - 1.0).abs() < 0.2,
         "{claimed} claimed, {measured} measured"
     );
     let passes = report["passes"].as_array().unwrap();
-    assert!(passes.len() > 1 && passes[0]["seed"] == 5 && passes[1]["seed"] != 5, "{report}");
+    assert_eq!(passes[0]["seed"] == 5, passes[0]["spp"] == 16, "{report}");
+    assert!(passes[1..].iter().all(|pass| pass["seed"] != 5), "{report}");
 }
 
 #[test]
