@@ -338,7 +338,8 @@ fn what_is_no_number_leaves_no_samples_of_lobes() {
         let lobe = Reflection::new(0.5, Vec3::new(0.0, x[12], 0.0), Vec3::new(0.0, 0.8, 0.6));
         by(&lobe).sample(Vec2::new(x[14], x[15]))
     }
-    let samples: [(&str, fn(&Numbers, [Vec3<f32>; 4]) -> LightSample<f32>); 5] = [
+    type Sample = fn(&Numbers, [Vec3<f32>; 4]) -> LightSample<f32>;
+    let samples: [(&str, Sample); 5] = [
         ("sphere", |x, [p, a, ..]| sample(x, |lobe| Sphere::new(a, x[13]).by_reflection(p, lobe))),
         ("triangle", |x, [p, a, b, c]| sample(x, |lobe| Triangle { v0: a, e1: b, e2: c }.by_reflection(p, lobe))),
         ("parallelogram", |x, [p, a, b, c]| sample(x, |lobe| Parallelogram::new(a, b, c).by_reflection(p, lobe))),
