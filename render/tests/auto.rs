@@ -91,28 +91,6 @@ fn closed_forms_are_taken_behind_a_lens_where_they_pay() {
     assert_eq!(taken(&world, &Settings { width: 64, height: 64, ..LARGE }).0, Technique::SolidAngle);
 }
 
-/// Where nothing is near a lamp, points are tried that are uniform over its area, and taken for one that emits into a narrow cone, many of whose
-/// directions would be in vain otherwise.
-#[test]
-fn points_uniform_over_a_lamp_are_tried_where_nothing_is_near() {
-    let world = |more: &str| {
-        World::new(&read(&format!(
-            "LookAt .6 -5.2 2.4  0 0 .6  0 0 1 Camera \"perspective\" \"float fov\" 45 WorldBegin
-            Material \"diffuse\" \"rgb reflectance\" [.6 .6 .6]
-            Shape \"bilinearmesh\" \"point3 P\" [-4 -4 0  4 -4 0  -4 4 0  4 4 0] {more}
-            AreaLightSource \"diffuse\" \"rgb L\" [14 13 12] \"float spread\" 20
-            Shape \"bilinearmesh\" \"point3 P\" [-1 .8 3  1 .8 3  -1 -.8 3  1 -.8 3]"
-        )))
-        .unwrap()
-    };
-    let (technique, _, trial) = taken(&world(""), &LARGE);
-    assert!(technique == Technique::Area && trial.is_some_and(|trial| !trial.is_rule), "{technique:?} {trial:?}");
-    // points of this would meet samples of any weight
-    let near = "Shape \"bilinearmesh\" \"point3 P\" [-.1 -.1 2.9  .1 -.1 2.9  -.1 .1 2.95  .1 .1 2.95]";
-    let (technique, _, trial) = taken(&world(near), &LARGE);
-    assert!(technique != Technique::Area && trial.is_some_and(|t| t.over.0 != Technique::Area), "{trial:?}");
-}
-
 /// Where a trial would take more than 3 % of the samples, the rule decides, and where there is only one way, nothing does.
 #[test]
 fn small_images_take_no_trial() {

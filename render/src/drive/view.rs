@@ -173,9 +173,8 @@ impl View<'_> {
     }
 
     /// The ways that may be best for [`Technique::Auto`]. The first is taken without a trial: the rule. All others have bounded weights, or none
-    /// that they could miss, so that few tiles tell: points uniform over the area of a lamp are tried only where it emits into a cone and no
-    /// surface is near it, and lamps chosen by their power never. Uniform over projected solid angle weights are bounded where surfaces are
-    /// diffuse.
+    /// that they could miss, so that few tiles tell: points uniform over the area of a lamp, and lamps chosen by their power, are not tried.
+    /// Uniform over projected solid angle they are bounded where surfaces are diffuse.
     ///
     /// Through a lens most of the error is often that of the image's edges: closed forms then take time that they do not save, and are not the
     /// rule. (By `etendue render SCENE --spp 64 --size 256x256 --threads 1`, `analytic` takes twice as long on `defocus`.) Of lights with
@@ -192,10 +191,6 @@ impl View<'_> {
         // no sample is below the horizon, and none counts more than another
         if !is_rough && scene.lights.is_one_projected() {
             ways.push((Technique::ProjectedSolidAngle, choice));
-        }
-        // many directions to a lamp that emits into a cone are in vain
-        if !is_rough && scene.lights.only_few_areas() && self.world.are_lights_narrow_and_far() {
-            ways.push((Technique::Area, choice));
         }
         if choice != ChoiceBy::Auto {
             return ways;

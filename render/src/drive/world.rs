@@ -1,6 +1,6 @@
 //! A scene ready to be rendered.
 
-use crate::bvh::{BuildError, Hits, PrimitiveId, Region, Scratch};
+use crate::bvh::{BuildError, Hits, Scratch};
 use crate::camera::{Camera, PreparedScene};
 use crate::choose::ChoiceBy;
 use crate::film::sensor::{Exposure, Sensor};
@@ -11,7 +11,7 @@ use crate::packet::{V8, X8};
 use crate::scene::{CameraSettings, Scene};
 use crate::settings::Settings;
 use crate::technique::Technique;
-use etendue::{Mask, Real, Vec3};
+use etendue::{Mask, Real};
 
 /// A scene ready to be rendered.
 #[derive(Debug)]
@@ -70,27 +70,6 @@ impl World {
     #[must_use]
     pub fn with_sensor(self, sensor: Sensor) -> Self {
         Self { sensor, ..self }
-    }
-
-    /// Whether all lights emit into cones, and nothing is nearer to one than half of its diameter: squared distances from its points to what it
-    /// lights vary by a factor of at most 9. Where too much is near to tell, it is false.
-    pub(super) fn are_lights_narrow_and_far(&self) -> bool {
-        let surfaces = &self.scene.surfaces;
-        let (mut region, mut stack) = (Region::new(surfaces.bvh.reach()), Vec::new());
-        surfaces.light_shapes().all(|light| {
-            let shape = &surfaces.shapes()[light as usize];
-            let [low, high] = shape.geometry.bounds().map(|corner| corner.map(f64::from));
-            let half = 0.5 * (Vec3::<f64>::from(high) - Vec3::from(low)).length();
-            region.clear();
-            for (k, (low, high)) in low.into_iter().zip(high).enumerate() {
-                for (side, limit) in [(1.0, high + half), (-1.0, half - low)] {
-                    region.push(std::array::from_fn(|i| if i == k { side } else { 0.0 }), limit);
-                }
-            }
-            let own = PrimitiveId::of_shape(light);
-            shape.emission.is_some_and(|emission| emission.spread.is_some())
-                && surfaces.bvh.search(&region, &mut stack, &mut 1000, |primitive| primitive == own)
-        })
     }
 
     /// The camera.
