@@ -17,58 +17,11 @@ use crate::sampler::{Sampler, default_sampler, hash64, reports_variance};
 use crate::scene::area::{self, Area};
 use crate::scene::limits::MOST_SAMPLES;
 use crate::settings::Settings;
-pub use schedule::at_most;
-use schedule::{Schedule, Timing};
+pub use schedule::{Goal, Pass, Progress, at_most};
+use schedule::{Schedule, Timing, is_left_out};
 use std::cell::Cell;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
-
-/// When an image is finished: as soon as one of these is reached.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Goal {
-    /// Seconds since the start of the first pass.
-    pub seconds: Option<f64>,
-    /// The relative RMS error, see [`Claim::total`].
-    pub error: Option<f64>,
-}
-
-/// A pass that is finished.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pass {
-    /// Samples per pixel.
-    pub spp: u32,
-    /// How its random numbers were generated.
-    pub sampler: Sampler,
-    /// Seed of its random numbers.
-    pub seed: u64,
-    /// Seconds that it took.
-    pub seconds: f64,
-}
-
-/// The mean of the passes so far.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Progress {
-    /// The image.
-    pub film: Film,
-    /// Its estimated error; `None` if it is not known.
-    pub error: Option<Claim>,
-    /// Samples per pixel of the image, without those of passes of a part.
-    pub spp: u64,
-    /// The passes of the image, in order.
-    pub passes: Vec<Pass>,
-    /// Seconds from the start of the first pass to the end of the last.
-    pub seconds: f64,
-    /// Rays of all passes, also of those that are no part of the image.
-    pub rays: RayCount,
-}
-
-/// A pass of nets takes the place of all before it if it has at least so many times their weight: they have a ninth at most.
-const LEFT_OUT: f64 = 8.0;
-
-/// Whether what is known, of this weight, is no part of the image any more after a pass of the weight `own`.
-fn is_left_out(weight: f64, own: f64, power: f64) -> bool {
-    power > 1.0 && own >= LEFT_OUT * weight
-}
 
 /// What to render until when.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,10 +3,59 @@
 //! One large pass has less error than several of as many samples together. So each pass is to fill the time that is left: with the sampler
 //! `adaptive`, it decides its number of samples after its pilot and an eighth of the tiles, whose time tells how fast it goes.
 
-use super::{Goal, Progress};
+use crate::bvh::RayCount;
 use crate::drive::view::Begun;
-use crate::sampler::FEWEST;
+use crate::film::Film;
+use crate::film::claim::Claim;
+use crate::sampler::{FEWEST, Sampler};
 use crate::scene::limits::MOST_SAMPLES;
+
+/// When an image is finished: as soon as one of these is reached.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Goal {
+    /// Seconds since the start of the first pass.
+    pub seconds: Option<f64>,
+    /// The relative RMS error, see [`Claim::total`].
+    pub error: Option<f64>,
+}
+
+/// A pass that is finished.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pass {
+    /// Samples per pixel.
+    pub spp: u32,
+    /// How its random numbers were generated.
+    pub sampler: Sampler,
+    /// Seed of its random numbers.
+    pub seed: u64,
+    /// Seconds that it took.
+    pub seconds: f64,
+}
+
+/// The mean of the passes so far.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Progress {
+    /// The image.
+    pub film: Film,
+    /// Its estimated error; `None` if it is not known.
+    pub error: Option<Claim>,
+    /// Samples per pixel of the image, without those of passes of a part.
+    pub spp: u64,
+    /// The passes of the image, in order.
+    pub passes: Vec<Pass>,
+    /// Seconds from the start of the first pass to the end of the last.
+    pub seconds: f64,
+    /// Rays of all passes, also of those that are no part of the image.
+    pub rays: RayCount,
+}
+
+/// A pass of nets takes the place of all before it if it has at least so many times their weight: they have a ninth at most.
+const LEFT_OUT: f64 = 8.0;
+
+/// Whether what is known, of this weight, is no part of the image any more after a pass of the weight `own`.
+pub(super) fn is_left_out(weight: f64, own: f64, power: f64) -> bool {
+    power > 1.0 && own >= LEFT_OUT * weight
+}
 
 /// Samples per pixel of the first pass, unless the time is given.
 const FIRST: u32 = 16;
@@ -127,7 +176,7 @@ impl Schedule {
         // the squared random error is c / Σ n^power; where it is uncertain, passes like the largest tell it
         let missing = weight * (excess - 1.0).max(0.0);
         // what is known is left out beside it
-        let missing = if super::is_left_out(weight, missing, self.power) { weight * excess } else { missing };
+        let missing = if is_left_out(weight, missing, self.power) { weight * excess } else { missing };
         let least = if is_uncertain { largest } else { last.spp };
         let needed = at_least(self.following(last.spp), missing.powf(self.power.recip()).max(f64::from(least)));
         Some(needed.map_or(most, |needed| most.min(needed.into())))
