@@ -30,6 +30,16 @@ fn inverse_beside_an_upright_edge() {
     properties::inverse(&Subject::new(&triangle), [-0.504813015, 0.341584474, 0.79276967]);
 }
 
+/// A past finding: a rectangle whose edges are parallel, and whose line the point is on.
+#[test]
+fn a_rectangle_without_a_plane() {
+    let a = [-0.07624698, -0.26919866, -0.5767062];
+    let (b, c) = ([0.12529406, 0.442365, 0.9476816], [0.12529406, 0.44236502, 0.9476816]);
+    let light =
+        AreaLight::seen(LightShape::Rectangle, Measure::SolidAngle, [a, b, c], [0.28337574, 0.3628821, -0.8877019]);
+    properties::any_bits(&light, [0.5, 0.50224024]);
+}
+
 #[test]
 fn a_million_random_inputs() {
     let shares: u32 = TARGETS.iter().map(|t| t.share).sum();

@@ -62,7 +62,8 @@ impl<R: Real> Rectangle<R> {
     /// - Domain: u in [0, 1)²; any rectangle, from either side. The map ignores any shear of the edges: for edges that are not
     ///   perpendicular, use [`Parallelogram::by_solid_angle`](crate::Parallelogram::by_solid_angle).
     /// - Density: the pdf is 1/Ω per steradian inside (and within 8 ulp beyond), 0 outside.
-    /// - Degenerate input: the point in the plane, zero area, or lengths whose sums overflow: Ω = 0 and pdf 0.
+    /// - Degenerate input: the point in the plane, zero area, edges less than 1e−3 from parallel, or lengths whose sums overflow: Ω = 0 and
+    ///   pdf 0.
     /// - Greatest error: direction 6e−7 (4e−5 of the rectangle's size if that is 1e−6 and the point is 1e−7
     ///   above its plane), besides what 8 steps of 2⁻²⁴ in u do to it (Ω and u₀Ω are rounded; u₀ counts from the nearer end
     ///   where the rectangle lies on both sides of the foot). pdf 5e−7 relative, since coordinates, and heights

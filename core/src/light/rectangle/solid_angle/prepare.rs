@@ -160,7 +160,8 @@ impl<R: Real> SphericalRectangle<R> {
         // Ω, and whether the rectangle can be sampled
         let solid_angle = window(distances, near, far, size, z);
         let some = solid_angle.gt(R::lit(1e-36)) & solid_angle.lt(R::lit(7.0)) & strip.sin.gt(zero);
-        let some = finite & some & z.gt(R::lit(1e-18));
+        // edges that are nearly parallel have no plane
+        let some = finite & some & z.gt(R::lit(1e-18)) & z_axis.max_abs().gt(R::lit(1e-3));
         let [along_u, along_v] = planes([p, u, v], vertices, side.lt(zero));
         let ([near_x, far_x], [near_y, far_y]) = (x.sorted(along_u), y.sorted(along_v));
         Self {
