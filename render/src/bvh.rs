@@ -37,7 +37,7 @@ mod tree;
 mod triangles;
 
 use crate::geometry::{Affine, Instance, NEAR_LIMIT, Segment};
-use crate::packet::{M8, V8, X8, each_bit, select};
+use crate::packet::{M8, V8, X8, each_bit};
 use crate::scene::texture::Mask as Holes;
 use double_precision::{hides, wide};
 use etendue::{Mask, Real, Vec3};
@@ -211,7 +211,7 @@ impl Bvh {
             if ANY && self.shapes.gap() > GAP * self.reach {
                 let mut near = [Hits::none(X8::lit(0.0)); GROUP];
                 for (near, &hits) in near.iter_mut().zip(&*hits) {
-                    let distance = select(hits.any(), hits.distance * X8::lit(BEFORE_SHAPES), hits.distance);
+                    let distance = Real::blend(hits.any(), hits.distance * X8::lit(BEFORE_SHAPES), hits.distance);
                     *near = Hits { distance, ..hits };
                 }
                 self.trace_shapes::<ANY>(rays, active, frustum.as_ref(), &mut near[..rays.len()], scratch);
@@ -228,7 +228,7 @@ impl Bvh {
             for (hits, shapes) in hits.iter_mut().zip(&mut shapes).filter(|(hits, _)| hits.shapes().any()) {
                 *shapes = Some(*hits);
                 let farther = hits.distance * X8::lit(1.0 + NEAR_LIMIT);
-                hits.distance = select(hits.shapes(), farther, hits.distance);
+                hits.distance = Real::blend(hits.shapes(), farther, hits.distance);
             }
         }
         let Scratch { frustum: stack, stream, instances: visits } = scratch;
@@ -265,7 +265,7 @@ impl Bvh {
                 first = first | M8::from_bits(1 << lane);
             }
         });
-        hits.distance = select(first, shapes.distance, hits.distance);
+        hits.distance = Real::blend(first, shapes.distance, hits.distance);
         hits.primitives = PrimitiveIds::pick(first, shapes.primitives, hits.primitives);
     }
     /// Like [`Self::trace`], for shapes only: packet by packet if there is no frustum, as shapes are few.

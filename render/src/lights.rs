@@ -31,7 +31,7 @@ pub(crate) mod sun;
 
 use crate::bvh::{PrimitiveId, PrimitiveIds};
 use crate::geometry::{self, Geometry, Kind};
-use crate::packet::{V8, X8, each_bit, equal, select};
+use crate::packet::{V8, X8, each_bit, equal};
 use crate::scene::light_picture::LightPicture;
 use crate::scene::light_profile::LightProfile;
 use crate::scene::{Scene, Shape};
@@ -230,7 +230,7 @@ impl Lights {
             let shape = primitive.shape().map(|shape| &self.shapes[shape]);
             if let Some(profile) = shape.and_then(|shape| shape.emission).and_then(|emission| emission.profile) {
                 let factor = self.profiles[profile as usize].factor(-direction, normal);
-                *radiance = *radiance * select(lanes, factor, X8::splat(1.0));
+                *radiance = *radiance * Real::blend(lanes, factor, X8::splat(1.0));
             }
         });
     }

@@ -1,7 +1,7 @@
 //! Builds trees: collapses obvhs's binary tree into nodes of eight children. No other file uses obvhs.
 
 use super::node::{Bounded, Bounds, EMPTY, Node, WIDTH, union};
-use crate::packet::{X8, min};
+use crate::packet::X8;
 use etendue::Real;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 use obvhs::{Boundable, aabb::Aabb, bvh2::Bvh2, bvh2::node::Bvh2Node, bvh2::reinsertion::ReinsertionOptimizer};
@@ -125,7 +125,7 @@ impl<'a> Collapse<'a> {
             let mut dealt = X8::lit(f64::INFINITY);
             for k in 1..WIDTH {
                 let rest: [f32; WIDTH] = shifted[WIDTH + 1 - k..2 * WIDTH + 1 - k].try_into().expect("8 numbers");
-                dealt = min(X8::splat(left[k - 1]) + X8::from(rest), dealt);
+                dealt = (X8::splat(left[k - 1]) + X8::from(rest)).lesser(dealt);
             }
             let dealt = dealt.to_array();
             let mut least = [0.0; WIDTH - 1];

@@ -3,7 +3,7 @@
 use super::node::{INNER, Node, Stack, WIDTH, greater, push_in_order, slabs};
 use super::rays::{Hits, Rays, any, common_sign};
 use super::tree::{Primitives, View};
-use crate::packet::{M8, V8, X8, first_lane, max, min, select};
+use crate::packet::{M8, V8, X8, first_lane};
 use etendue::{Mask, Real};
 
 /// A frustum that contains all rays of a group. All rays run the same way along one axis; across it, they are bounded by their least
@@ -43,8 +43,8 @@ impl Frustum {
             }
             let values = [r.origin.x, r.origin.y, r.origin.z, slope.x, slope.y, slope.z, d];
             for (k, value) in values.into_iter().enumerate() {
-                least[k] = min(least[k], select(a, value, infinite));
-                most[k] = max(most[k], select(a, value, -infinite));
+                least[k] = least[k].lesser(Real::blend(a, value, infinite));
+                most[k] = most[k].greater(Real::blend(a, value, -infinite));
             }
             pad = pad.max(r.pad);
         }
@@ -67,7 +67,7 @@ impl Frustum {
         let lead = slope.lane(first_lane(active));
         let apart = slope - V8::splat(lead);
         // a NaN fails the comparison, too
-        let near = max(max(apart.x.abs(), apart.y.abs()), apart.z.abs()).le(X8::splat(SPREAD));
+        let near = apart.x.abs().greater(apart.y.abs()).greater(apart.z.abs()).le(X8::splat(SPREAD));
         (active & !near).any()
     }
 
@@ -82,8 +82,8 @@ impl Frustum {
         } else {
             (lower - X8::splat(high[k]), upper - X8::splat(low[k]))
         };
-        let near = max(near, X8::lit(0.0));
-        let far = min(far, X8::splat(reach * self.along));
+        let near = near.greater(X8::lit(0.0));
+        let far = far.lesser(X8::splat(reach * self.along));
         let across = |i: usize| {
             let (least, greatest) = (self.slope[0][i], self.slope[1][i]);
             let from = if least < 0.0 { far } else { near };
@@ -247,7 +247,7 @@ fn visit_leaf<const ANY: bool, const COMMON: bool>(
 /// The greatest remaining search distance of an active ray.
 #[inline]
 fn farthest(hits: &[Hits], active: &[M8]) -> f32 {
-    let most = hits.iter().zip(active).fold(X8::lit(0.0), |m, (h, &a)| max(m, h.distance.keep(a)));
+    let most = hits.iter().zip(active).fold(X8::lit(0.0), |m, (h, &a)| m.greater(h.distance.keep(a)));
     let [a, b, c, d, e, f, g, h] = most.to_array();
     greater(greater(greater(a, b), greater(c, d)), greater(greater(e, f), greater(g, h)))
 }

@@ -14,7 +14,7 @@ use super::traversal::Traversal;
 use super::tree::Tree;
 use super::triangles::{Moved, Situated, TriangleLeaves};
 use crate::geometry::{Affine, Instance, bounds_of};
-use crate::packet::{M8, X8, select};
+use crate::packet::{M8, X8};
 use etendue::{Mask, Real};
 use std::ops::{Range, RangeInclusive};
 
@@ -178,7 +178,7 @@ impl Instances {
                 let (near, entered) = slabs::<false>(node, slot, rays, [false; 3], hits.distance);
                 let entered = entered & *active;
                 if entered.any() {
-                    let near = select(entered, near, order).to_array().into_iter().fold(f32::INFINITY, f32::min);
+                    let near = Real::blend(entered, near, order).to_array().into_iter().fold(f32::INFINITY, f32::min);
                     let child = Visit { first: node.first[slot], is_leaf: node.count[slot] != 0, near };
                     stack.push(child);
                     let mut height = stack.len() - 1;

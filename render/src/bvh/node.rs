@@ -1,7 +1,7 @@
 //! Nodes of a tree, bounding boxes, and how packets of rays enter them.
 
 use super::rays::Rays;
-use crate::packet::{M8, X8, max, min};
+use crate::packet::{M8, X8};
 use etendue::Real;
 use std::ops::Range;
 
@@ -93,7 +93,7 @@ pub(super) fn slabs<const COMMON: bool>(node: &Node, slot: usize, rays: &Rays, s
         let a = X8::splat(node.planes[0][k][slot]).mul_add(inverse, below);
         let b = X8::splat(node.planes[1][k][slot]).mul_add(inverse, above);
         if !COMMON {
-            (min(a, b), max(a, b))
+            (a.lesser(b), a.greater(b))
         } else if sign[k] {
             (b, a)
         } else {
@@ -103,8 +103,8 @@ pub(super) fn slabs<const COMMON: bool>(node: &Node, slot: usize, rays: &Rays, s
     let (nx, fx) = axis(0, rays.inverse.x, rays.offset[0].x, rays.offset[1].x);
     let (ny, fy) = axis(1, rays.inverse.y, rays.offset[0].y, rays.offset[1].y);
     let (nz, fz) = axis(2, rays.inverse.z, rays.offset[0].z, rays.offset[1].z);
-    let near = max(max(nx, ny), max(nz, X8::lit(0.0)));
-    let far = min(min(fx, fy), min(fz, limit));
+    let near = nx.greater(ny).greater(nz.greater(X8::lit(0.0)));
+    let far = fx.lesser(fy).lesser(fz.lesser(limit));
     (near, near.le(far))
 }
 

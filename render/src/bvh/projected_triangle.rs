@@ -1,7 +1,7 @@
 //! The test of a ray against a triangle, with the triangle seen along the ray.
 
 use crate::geometry::NEAR_LIMIT;
-use crate::packet::{M8, V8, X8, max, min, select};
+use crate::packet::{M8, V8, X8};
 use etendue::Real;
 
 /// What an edge function may be beyond 0, relative to the greatest, so that rounding may have put a ray outside.
@@ -32,8 +32,8 @@ pub(super) fn project(corners: [V8; 3], origin: V8, [s, t]: [V8; 2]) -> Projecte
     let weights = [bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx];
     let [u, v, w] = weights;
     let zero = X8::lit(0.0);
-    let least = min(min(u, v), w);
-    let most = max(max(u, v), w);
+    let least = u.lesser(v).lesser(w);
+    let most = u.greater(v).greater(w);
     let sum = u + v + w;
     let some = sum.abs().gt(zero);
     Projected { inside: (least.ge(zero) | most.le(zero)) & some, some, weights, sum, relative }
@@ -44,7 +44,7 @@ impl Projected {
     #[inline]
     pub(super) fn nearly(&self) -> M8 {
         let [u, v, w] = self.weights;
-        let (least, most, band) = (min(min(u, v), w), max(max(u, v), w), X8::lit(-BAND));
+        let (least, most, band) = (u.lesser(v).lesser(w), u.greater(v).greater(w), X8::lit(-BAND));
         (least.ge(most * band) | most.le(least * band)) & self.some
     }
     /// Lanes whose distance is negative by more than its error, if it is less than `near` in magnitude: a ray that leaves a surface, moved
@@ -56,7 +56,7 @@ impl Projected {
     #[inline(always)]
     pub(super) fn surely_behind(&self, distance: X8, near: X8) -> M8 {
         let (square, corner) = (near * near, self.relative[0]);
-        let bound = max(square * near * X8::lit(2.0), X8::lit(1e-30));
+        let bound = (square * near * X8::lit(2.0)).greater(X8::lit(1e-30));
         corner.dot(corner).le(square * X8::lit(34.0 * 34.0)) & (distance * self.sum.abs()).lt(-bound)
     }
     /// Distances along the rays. The weights of slivers, and thus their distances, may be nothing but rounding error.
@@ -65,7 +65,7 @@ impl Projected {
         let [a, b, c] = self.relative;
         let (z0, z1, z2) = (a.dot(direction), b.dot(direction), c.dot(direction));
         let [u, v, w] = self.weights;
-        u.mul_add(z0, v.mul_add(z1, w * z2)) / select(self.some, self.sum, X8::lit(1.0))
+        u.mul_add(z0, v.mul_add(z1, w * z2)) / Real::blend(self.some, self.sum, X8::lit(1.0))
     }
 }
 
@@ -74,6 +74,6 @@ impl Projected {
 pub(super) fn undecided<const ANY: bool>(distance: X8, near: X8, limit: X8) -> M8 {
     // also where it is not a number
     let undecided = !distance.abs().gt(near);
-    let band = max(limit * X8::lit(NEAR_LIMIT), near * X8::lit(1.0 / 4096.0));
+    let band = (limit * X8::lit(NEAR_LIMIT)).greater(near * X8::lit(1.0 / 4096.0));
     if ANY { undecided | (distance - limit).abs().lt(band) } else { undecided }
 }

@@ -1,7 +1,7 @@
 //! Rays in packets of eight, and their hits.
 
 use super::primitive::{PrimitiveId, PrimitiveIds};
-use crate::packet::{M8, V8, X8, max};
+use crate::packet::{M8, V8, X8};
 use etendue::{Frame, Mask, Real, Vec3};
 
 /// Greatest number of packets in a group.
@@ -59,8 +59,8 @@ impl Rays {
     pub(super) fn entering(&self, origin: V8, direction: V8, pad: X8) -> Self {
         // components below 1e−18 count as 1e−18, with which a ray never reaches the planes across that axis; in scenes beyond 1e19 they are
         // as great as the range of numbers asks for
-        let least = max(pad * X8::lit(1e-31), X8::lit(1e-18));
-        let invert = |d: X8| X8::lit(1.0) / max(d.abs(), least).copysign(d);
+        let least = (pad * X8::lit(1e-31)).greater(X8::lit(1e-18));
+        let invert = |d: X8| X8::lit(1.0) / d.abs().greater(least).copysign(d);
         let inverse = Vec3::new(invert(direction.x), invert(direction.y), invert(direction.z));
         let plane = |o: V8, pad: X8| {
             Vec3::new(-((o.x + pad) * inverse.x), -((o.y + pad) * inverse.y), -((o.z + pad) * inverse.z))

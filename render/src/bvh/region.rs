@@ -3,7 +3,7 @@
 use super::node::{Node, WIDTH};
 use super::tree::View;
 use crate::geometry::Affine;
-use crate::packet::{M8, V8, X8, min};
+use crate::packet::{M8, V8, X8};
 use etendue::{Mask, Real};
 use std::ops::Range;
 
@@ -82,7 +82,7 @@ impl Region {
     pub(super) fn triangles(&self, corners: &[V8; 3]) -> u32 {
         let outside = self.outside(|n| {
             let [a, b, c] = corners.map(|corner| corner.dot(n.into()));
-            min(min(a, b), c)
+            a.lesser(b).lesser(c)
         });
         !outside.bits() & 0xff
     }

@@ -7,7 +7,7 @@ use super::rays::{Hits, Rays};
 use super::region::{Placed, Region};
 use super::tree::{Primitives, Tree};
 use crate::geometry::{AnyHittable, Approach, Geometry, Hittable, Meeting, NEAR_LIMIT, Segment};
-use crate::packet::{M8, X8, select};
+use crate::packet::{M8, X8};
 use etendue::{Mask, Real};
 use std::ops::Range;
 use std::sync::Arc;
@@ -208,7 +208,7 @@ impl Primitives for Hittables {
                 let first = self.comes_first(index, rays, near.level & level, hits.primitives);
                 hit = hit & !level | level & (near.hit | first);
             }
-            hits.distance = select(hit, distance, hits.distance);
+            hits.distance = Real::blend(hit, distance, hits.distance);
             hits.primitives = PrimitiveIds::pick(hit, id, hits.primitives);
         }
         hidden

@@ -4,7 +4,7 @@ use super::node::{Node, Stack, prefetch, push_in_order};
 use super::primitive::PrimitiveId;
 use super::rays::{Hits, Nearest, Rays, by_octant};
 use super::tree::View;
-use crate::packet::{M8, V8, X8, each_bit, max, min};
+use crate::packet::{M8, V8, X8, each_bit};
 use etendue::{Mask, Real, Vec3};
 use std::ops::Range;
 
@@ -64,8 +64,8 @@ impl SingleRay {
             let side = (octant >> k & 1) ^ last;
             X8::from(node.planes[side][k]).mul_add(X8::splat(self.inverse[k]), X8::splat(self.offset[side][k]))
         };
-        let near = max(max(plane(0, 0), plane(0, 1)), max(plane(0, 2), X8::lit(0.0)));
-        let far = min(min(plane(1, 0), plane(1, 1)), min(plane(1, 2), limit));
+        let near = plane(0, 0).greater(plane(0, 1)).greater(plane(0, 2).greater(X8::lit(0.0)));
+        let far = plane(1, 0).lesser(plane(1, 1)).lesser(plane(1, 2).lesser(limit));
         (near, near.le(far))
     }
 }

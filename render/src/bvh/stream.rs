@@ -4,7 +4,7 @@ use super::node::{INNER, Node, Stack, WIDTH, push_in_order, slabs};
 use super::rays::{GROUP, Hits, Rays, by_octant, octant};
 use super::single_ray::{Child, Leaves, SingleRay, trace_lane};
 use super::tree::{Primitives, View};
-use crate::packet::{M8, X8, each_bit, max, min, select};
+use crate::packet::{M8, X8, each_bit};
 use etendue::{Mask, Real};
 use wide::i8x32;
 
@@ -57,19 +57,19 @@ impl<const OCTANT: usize> Stream<'_, OCTANT> {
                     let inverse = at(inverse);
                     let a = first[k].mul_add(inverse, at(a));
                     let b = last[k].mul_add(inverse, at(b));
-                    if OCTANT < 8 { (a, b) } else { (min(a, b), max(a, b)) }
+                    if OCTANT < 8 { (a, b) } else { (a.lesser(b), a.greater(b)) }
                 };
                 let side = |k: usize| (&r.offset[negative(k)], &r.offset[1 - negative(k)]);
                 let ((ax, bx), (ay, by), (az, bz)) = (side(0), side(1), side(2));
                 let (nx, fx) = axis(0, &r.inverse.x, &ax.x, &bx.x);
                 let (ny, fy) = axis(1, &r.inverse.y, &ay.y, &by.y);
                 let (nz, fz) = axis(2, &r.inverse.z, &az.z, &bz.z);
-                let near = max(max(nx, ny), max(nz, X8::lit(0.0)));
-                let far = min(min(fx, fy), min(fz, at(&hits.distance)));
+                let near = nx.greater(ny).greater(nz.greater(X8::lit(0.0)));
+                let far = fx.lesser(fy).lesser(fz.lesser(at(&hits.distance)));
                 let mask = near.le(far);
                 entered[lane] = mask.bits() as i8;
                 if !ANY {
-                    nearest = min(nearest, select(mask, near, X8::lit(f64::INFINITY)));
+                    nearest = nearest.lesser(Real::blend(mask, near, X8::lit(f64::INFINITY)));
                 }
             }
         }

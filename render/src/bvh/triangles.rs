@@ -12,7 +12,7 @@ use super::shapes::Reached;
 use super::single_ray::{Leaves, SingleRay};
 use super::tree::{Primitives, Tree};
 use crate::geometry::{Affine, NEAR, Segment};
-use crate::packet::{M8, V8, X8, each_bit, max, select};
+use crate::packet::{M8, V8, X8, each_bit};
 use etendue::{Mask, Real, Vec3, u32x8};
 use std::ops::{Range, RangeInclusive};
 use wide::u16x8;
@@ -343,7 +343,7 @@ impl TriangleLeaves {
                 let ahead = self.decide::<ANY>(situation, lanes, triangles, way, end, &mut distance);
                 met = met & !unclear | M8::from_bits(ahead);
             }
-            let distance = max(distance, near);
+            let distance = distance.greater(near);
             let mut ahead = met & distance.gt(X8::lit(0.0));
             if let Some(cutouts) = &self.cutouts {
                 let weights = projected.weights;
@@ -360,7 +360,7 @@ impl TriangleLeaves {
             if tie.any() {
                 nearer = nearer | self.goes_first(tie, situation.first(), triangle, hits);
             }
-            hits.distance = select(nearer, distance, hits.distance);
+            hits.distance = Real::blend(nearer, distance, hits.distance);
             hits.primitives = PrimitiveIds::pick(nearer, PrimitiveIds::splat(triangle), hits.primitives);
         }
         hidden
@@ -406,7 +406,7 @@ impl TriangleLeaves {
             let ahead = self.decide::<ANY>(situation, unclear, triangles, way, end, &mut distance);
             inside = inside & !unclear | ahead;
         }
-        let distance = max(distance, near);
+        let distance = distance.greater(near);
         let ahead = distance.gt(X8::lit(0.0));
         if let Some(cutouts) = &self.cutouts {
             let weights = projected.weights;

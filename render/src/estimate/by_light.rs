@@ -8,7 +8,7 @@ use crate::camera::Group;
 use crate::know::Ledger;
 use crate::lights::sky::SunBeside;
 use crate::lights::{Chosen, Drawn, LightDirection};
-use crate::packet::{M8, V8, X8, keep, product, select};
+use crate::packet::{M8, V8, X8, keep, product};
 use crate::surfaces::bsdf::Evaluated;
 use crate::technique::Measure;
 use etendue::{Mask, Real, Vec2};
@@ -53,7 +53,7 @@ impl ByLight {
                 counts = counts & !proven.dark;
             }
             // weigh f L cosθ / pdf
-            let pdf = select(counts, pdf * choice.pmf, one);
+            let pdf = Real::blend(counts, pdf * choice.pmf, one);
             let rough = group.rough::<GENERAL>(p);
             let factor = match &self.mis {
                 None => factor,

@@ -8,7 +8,7 @@ use crate::camera::Group;
 use crate::choose::LightPmf;
 use crate::know::Ledger;
 use crate::lights::NO_LIGHT;
-use crate::packet::{M8, V8, X8, keep, pick, product, select};
+use crate::packet::{M8, V8, X8, keep, pick, product};
 use crate::surfaces::bsdf::Scattered;
 use crate::surfaces::lobe::Lobe;
 use crate::technique::Technique;
@@ -53,7 +53,7 @@ impl BySurface {
             let Scattered { direction, color, factor, pdf } = group.bsdf::<GENERAL>(p).sample(self.technique, pairs[p]);
             let some = pdf.gt(zero);
             let reflects = surface.reflects & some;
-            pdfs[p] = select(some, pdf, one);
+            pdfs[p] = Real::blend(some, pdf, one);
             (rays.found[p], factors[p]) = (color, factor);
             rays.lanes[p] = self.mis.map_or(reflects, |mis| mis.by_surface(group.rough::<GENERAL>(p), reflects));
             tracer.shadow[p] = bvh.rays(surface.point, direction).leaving(group.points.places[p].primitives);
@@ -133,7 +133,7 @@ impl BySurface {
                     if let Some(pmf) = pmf.filter(|_| here.any()) {
                         let pdf =
                             scene.lights.shape_pdf(index, &shape.geometry, surface.point, rays.direction) * pmf(light);
-                        met.pdf = select(here, pdf, met.pdf);
+                        met.pdf = Real::blend(here, pdf, met.pdf);
                     }
                 }
             });
@@ -146,7 +146,7 @@ impl BySurface {
                 if let Some(pmf) = pmf.filter(|_| (missed & shown).any()) {
                     let pdf = scene.lights.sky_pdf(surface.point, surface.normal, rays.direction);
                     let pdf = pdf * pmf(scene.lights.of_sky());
-                    met.pdf = select(missed, pdf, met.pdf);
+                    met.pdf = Real::blend(missed, pdf, met.pdf);
                 }
             }
         };

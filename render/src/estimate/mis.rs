@@ -1,6 +1,6 @@
 //! Multiple importance sampling: how samples of lights and of surfaces are weighted where both are taken.
 
-use crate::packet::{M8, X8, select};
+use crate::packet::{M8, X8};
 use etendue::Real;
 use etendue::estimate::Heuristic;
 
@@ -22,8 +22,8 @@ impl Mis {
         let one = X8::lit(1.0);
         let [pdf, surface_pdf] = pdfs;
         let weight = self.heuristic.weights([Heuristic::technique_pdf(one, pdf, delta), surface_pdf])[0];
-        let weight = select(alone, one, weight);
-        if self.only_rough { select(rough, weight, one) } else { weight }
+        let weight = Real::blend(alone, one, weight);
+        if self.only_rough { Real::blend(rough, weight, one) } else { weight }
     }
     /// The weight of a direction drawn by the surface, with its pdf and the pdf with which the light is sampled there.
     #[inline(always)]

@@ -5,7 +5,7 @@ use crate::camera::Group;
 use crate::choose::{Chooser, LightPmf};
 use crate::know::Ledger;
 use crate::lights::sky::SunBeside;
-use crate::packet::{M8, X8, each_group, pick, select};
+use crate::packet::{M8, X8, each_group, pick};
 use crate::surfaces::Surface;
 use crate::surfaces::lobe::Lobe;
 use etendue::select::{Choice, Gloss, LightChoice};
@@ -96,8 +96,8 @@ fn among_open(group: &Group<'_>, packet: usize, number: X8, open: &[[M8; GROUP]]
     let (other, others) = among(group.chooser, surface, all & stray, packet, number, open);
     let choice = Choice {
         index: pick(stray, other.index, choice.index),
-        pmf: select(stray, other.pmf, choice.pmf),
-        u: select(stray, other.u, choice.u),
+        pmf: Real::blend(stray, other.pmf, choice.pmf),
+        u: Real::blend(stray, other.u, choice.u),
     };
     (choice, lanes | others)
 }

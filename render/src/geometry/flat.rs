@@ -2,7 +2,7 @@
 
 use super::ends::Segment;
 use super::form::{Approach, Hittable, Meeting, NEAR};
-use crate::packet::{M8, V8, X8, select};
+use crate::packet::{M8, V8, X8};
 use crate::technique::Measure;
 use etendue::light::{FlatLight, Picture};
 use etendue::{LightSample, Mask, Real, Vec2, Vec3};
@@ -35,7 +35,7 @@ impl Plane {
         let normal = V8::from(self.normal);
         let slope = rays.direction.dot(normal);
         let some = slope.abs().gt(zero);
-        let distance = to_point.dot(normal) / select(some, slope, one);
+        let distance = to_point.dot(normal) / Real::blend(some, slope, one);
         let inside = some & inside(rays.direction.mul_add(distance, -to_point)) & !rays.own;
         let unclear = inside
             & rays.lanes

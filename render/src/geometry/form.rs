@@ -3,7 +3,7 @@
 use super::ends::{End, Segment};
 use super::points::Points;
 use super::spread::Spread;
-use crate::packet::{M8, V8, X8, each_bit, max};
+use crate::packet::{M8, V8, X8, each_bit};
 use crate::technique::Measure;
 use etendue::light::Picture;
 use etendue::{LightSample, Mask, Real, Vec2, Vec3};
@@ -172,7 +172,7 @@ impl Approach<'_> {
     /// precision does not tell whether it hides these.
     #[inline(always)]
     pub(crate) fn near_limit<const ANY: bool>(&self, distance: X8, near: f32) -> M8 {
-        let band = max(self.limit * X8::lit(NEAR_LIMIT), X8::splat(near / 4096.0));
+        let band = (self.limit * X8::lit(NEAR_LIMIT)).greater(X8::splat(near / 4096.0));
         if ANY { (distance - self.limit).abs().lt(band) } else { M8::splat(false) }
     }
     /// The meeting with these lanes as double precision finds them: `of` tells of a segment, and whether it begins on the form, at which

@@ -4,7 +4,7 @@ use super::ends::Segment;
 use super::form::{Approach, Chart, Extent, Form, Hittable, Meeting, NEAR, wide};
 use super::points::{D8, Points, each, facing, lifted, unit, zero};
 use super::spread::Spread;
-use crate::packet::{M8, V8, X8, max, select, widen};
+use crate::packet::{M8, V8, X8, widen};
 use crate::technique::Measure;
 use etendue::light::{self, Picture};
 use etendue::{Frame, LightSample, LightSampler, Mask, Real, Vec2, Vec3, f64x8};
@@ -154,9 +154,9 @@ impl Hittable for Sphere {
         let foot = rays.direction.mul_add(-along, to_center);
         let r = X8::splat(self.radius);
         let square = r.mul_add(r, -foot.length_squared());
-        let half = max(square, zero).sqrt();
+        let half = square.greater(zero).sqrt();
         let near = along - half;
-        let distance = select(near.gt(zero), near, along + half);
+        let distance = Real::blend(near.gt(zero), near, along + half);
         // to the outside of the sphere on which it begins, no ray meets it: the error of `along` is less than 2⁻²⁰ of it and the radius
         let leaves = rays.own & along.lt(X8::splat(self.radius * -LEAVES));
         let met = square.ge(zero) & distance.gt(zero) & !leaves;

@@ -1,6 +1,6 @@
 //! Flat lights that emit within an angle of their normal.
 
-use crate::packet::{M8, V8, X8, select};
+use crate::packet::{M8, V8, X8};
 use etendue::math::{quotient, ratio};
 use etendue::{Parallelogram, Real, Vec3};
 
@@ -103,6 +103,6 @@ impl Spread<X8> {
     /// The attenuation in lanes with a spread, and 1 elsewhere. The normal may have any length.
     #[inline(never)]
     pub(crate) fn attenuation_in(&self, lanes: M8, direction: V8, normal: V8) -> X8 {
-        select(lanes, self.attenuation(direction, normal.normalize()), X8::splat(1.0))
+        Real::blend(lanes, self.attenuation(direction, normal.normalize()), X8::splat(1.0))
     }
 }

@@ -7,7 +7,7 @@ use super::ledger::{Ledger, Proven};
 use super::picture_irradiance::PictureIrradiance;
 use crate::bvh::GROUP;
 use crate::camera::Group;
-use crate::packet::{M8, V8, X8, first_lane, product, select};
+use crate::packet::{M8, V8, X8, first_lane, product};
 use crate::surfaces::Surface;
 use etendue::{Mask, Real};
 use etendue_visible::Precision;
@@ -199,11 +199,11 @@ impl GroupSees {
         // single precision always suffices, since nothing cancels
         let lit = self.lit[p][0] | self.lit[p][1];
         // behind occluders, what is visible of a light of constant radiance is the best guess
-        let (mut share, mut is_part) = (select(lit, X8::lit(1.0), zero), M8::splat(false));
+        let (mut share, mut is_part) = (Real::blend(lit, X8::lit(1.0), zero), M8::splat(false));
         if behind.any() {
             let (part, all) = (self.part[p], self.all[p]);
             is_part = behind & part.gt(zero) & part.lt(all);
-            share = select(behind, (part / all).clamped(zero, X8::lit(1.0)).keep(part.gt(zero)), share);
+            share = Real::blend(behind, (part / all).clamped(zero, X8::lit(1.0)).keep(part.gt(zero)), share);
         }
         let (all, known) = irradiance.at(surface.point, surface.normal, lit | behind);
         let share = share.keep(known);

@@ -4,7 +4,7 @@ use super::record::{KINDS, PICTURED, PROFILED, SPREAD, TWO_SIDED};
 use crate::bvh::PrimitiveIds;
 use crate::geometry::spread::Spread;
 use crate::geometry::{self, Kind, Parallelogram, Sphere};
-use crate::packet::{M8, V8, X8, each_bit, equal, select};
+use crate::packet::{M8, V8, X8, each_bit, equal};
 use crate::surfaces::lobe::Lobe;
 use etendue::{LightSample, LightSampler, Mask, Real, Vec2, u32x8};
 
@@ -45,8 +45,8 @@ impl LightDirection {
     #[inline(always)]
     pub(super) fn put(&mut self, here: M8, sample: &Self) {
         self.direction = V8::blend(here, sample.direction, self.direction);
-        self.distance = select(here, sample.distance, self.distance);
-        self.pdf = select(here, sample.pdf, self.pdf);
+        self.distance = Real::blend(here, sample.distance, self.distance);
+        self.pdf = Real::blend(here, sample.pdf, self.pdf);
         self.emits = sample.emits & here | self.emits & !here;
         self.delta = sample.delta & here | self.delta & !here;
     }

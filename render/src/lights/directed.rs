@@ -4,7 +4,7 @@
 use super::chosen::Chosen;
 use super::record::{DIRECTED, LightRecord};
 use super::spot::cosine_below;
-use crate::packet::{M8, V8, X8, each_group, select};
+use crate::packet::{M8, V8, X8, each_group};
 use crate::scene::Cone;
 use crate::scene::intensity::Intensity;
 use etendue::{LightSample, LightSampler, PointLight, Real, SpotLight, Vec2, Vec3};
@@ -64,7 +64,7 @@ pub(super) fn sample(lights: &[DirectedLight], chosen: &Chosen, p: V8, here: M8)
         if let Some(cone) = cone {
             own *= SpotLight::splat(*cone).falloff(w);
         }
-        found = select(same, own, found);
+        found = Real::blend(same, own, found);
     });
     let some = found.gt(X8::lit(0.0));
     (LightSample { pdf: sample.pdf.keep(some), emits: sample.emits & some, ..sample }, found)

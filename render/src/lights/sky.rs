@@ -4,7 +4,7 @@ mod daylight;
 mod moments;
 mod portals;
 
-use crate::packet::{M8, V8, X8, select};
+use crate::packet::{M8, V8, X8};
 use crate::scene;
 use crate::technique::Measure;
 pub use daylight::GeneralSky;
@@ -266,12 +266,12 @@ impl Sky {
         let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
         let share = X8::splat(sun.share);
         let is_sun = u.x.lt(share);
-        let (start, size) = (select(is_sun, zero, share), select(is_sun, share, one - share));
+        let (start, size) = (Real::blend(is_sun, zero, share), Real::blend(is_sun, share, one - share));
         let u = Vec2::new((u.x - start) / size, u.y);
         let (of_sky, sampler) = (self.sample_sky(measure, normal, u).0, sun.sampler());
         let direction = V8::blend(is_sun, sampler.sample(u).direction, of_sky.direction);
         let pdf = || self.pdf_of_sky(measure, normal, direction);
-        let sky_pdf = if is_sun.any() { select(is_sun, pdf(), of_sky.pdf) } else { of_sky.pdf };
+        let sky_pdf = if is_sun.any() { Real::blend(is_sun, pdf(), of_sky.pdf) } else { of_sky.pdf };
         let pdf = share * sampler.pdf(direction) + (one - share) * sky_pdf;
         LightSample { direction, distance: X8::lit(FAR), pdf, emits: M8::splat(true), ..of_sky }
     }

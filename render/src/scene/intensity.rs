@@ -3,7 +3,7 @@
 mod profile;
 mod rings;
 
-use crate::packet::{V8, X8, select};
+use crate::packet::{V8, X8};
 use etendue::light::{EnvironmentMap, ImageEnvironment};
 use etendue::{Real, SpotLight};
 pub use profile::{Profile, ProfileError};
@@ -55,7 +55,7 @@ impl Intensity {
             Self::Cone { inner, outer } => {
                 // 1 − cosθ, which is precise for narrow cones
                 let above = w.x.mul_add(w.x, w.y * w.y) / (X8::splat(1.0) + w.z.abs());
-                let away = select(w.z.lt(X8::splat(0.0)), X8::splat(1.0) - w.z, above);
+                let away = Real::blend(w.z.lt(X8::splat(0.0)), X8::splat(1.0) - w.z, above);
                 // a step where both angles are equal
                 let width = X8::splat((outer - inner).max(f32::MIN_POSITIVE));
                 let t = ((X8::splat(*outer) - away) / width).clamped(X8::splat(0.0), X8::splat(1.0));

@@ -6,7 +6,7 @@ mod metal;
 mod records;
 mod walk;
 
-use crate::packet::{M8, V8, X8, max, min, select};
+use crate::packet::{M8, V8, X8};
 use crate::technique::Technique;
 use coated::{Coated, LAST};
 use etendue::warp::{CosineHemisphere, GgxVisibleNormals, UniformHemisphere};
@@ -91,7 +91,7 @@ impl<'a, const GENERAL: bool> Bsdf<'a, GENERAL> {
             let view = frame.to_local(-direction);
             let lanes = metal.coats();
             if let Some(terms) = &metal.through {
-                albedo = albedo * select(metal.is(LAYERED), metal.through(terms, view.z), X8::lit(1.0));
+                albedo = albedo * Real::blend(metal.is(LAYERED), metal.through(terms, view.z), X8::lit(1.0));
             }
             let coats = lanes.any().then(|| Coats { lanes, share: coat_share(metal.of_coat(view.z), albedo) });
             let coated = metal.walks().any().then(|| Coated::new(metal, view, numbers));
@@ -126,18 +126,18 @@ impl<'a, const GENERAL: bool> Bsdf<'a, GENERAL> {
         let share = density * shadowing(metal.alpha, *view, local);
         let cos = view.dot(m);
         let mut color = V8::blend(*lanes, metal.fresnel(cos) * share, value);
-        let mut density = select(*lanes, density, pdf);
+        let mut density = Real::blend(*lanes, density, pdf);
         if let Some(Coats { lanes, share: chosen }) = coats {
             let reflectance = metal.of_coat(cos);
             let through = metal.under(reflectance, local.z);
             let under = V8::new(value.x * through.x, value.y * through.y, value.z * through.z);
             color = V8::blend(*lanes, reflectance * share + under, color);
-            density = select(*lanes, (density - pdf).mul_add(*chosen, pdf), density);
+            density = Real::blend(*lanes, (density - pdf).mul_add(*chosen, pdf), density);
         }
         if let Some(coated) = coated {
             let (of, all) = coated.evaluate(metal, [*view, local], [density, pdf]);
             color = V8::blend(coated.lanes, of.map(|x| x.keep(above)), color);
-            density = select(coated.lanes, all.keep(above), density);
+            density = Real::blend(coated.lanes, all.keep(above), density);
         }
         Evaluated { color, factor: one, pdf: density }
     }
@@ -171,8 +171,8 @@ impl<'a, const GENERAL: bool> Bsdf<'a, GENERAL> {
             if let Some(Coats { lanes, share }) = coats {
                 let first = u.x.lt(*share);
                 let rest = one - *share;
-                let left = select(first, u.x / *share, (u.x - *share) / select(rest.gt(zero), rest, one));
-                u.x = select(*lanes, min(left, X8::lit(LAST)), u.x);
+                let left = Real::blend(first, u.x / *share, (u.x - *share) / Real::blend(rest.gt(zero), rest, one));
+                u.x = Real::blend(*lanes, left.lesser(X8::lit(LAST)), u.x);
                 local = V8::blend(*lanes, CosineHemisphere.sample(u), local);
                 by_normals = by_normals & (first | !*lanes);
             }
@@ -186,7 +186,7 @@ impl<'a, const GENERAL: bool> Bsdf<'a, GENERAL> {
             _ => pdf,
         };
         let some = pdf.gt(zero);
-        Scattered { direction, color: color * (one / select(some, pdf, one)), factor: one, pdf }
+        Scattered { direction, color: color * (one / Real::blend(some, pdf, one)), factor: one, pdf }
     }
 }
 
@@ -194,11 +194,11 @@ impl<'a, const GENERAL: bool> Bsdf<'a, GENERAL> {
 /// nothing is below it.
 #[inline]
 fn coat_share(reflectance: V8, albedo: V8) -> X8 {
-    let most = |v: V8| max(max(v.x, v.y), v.z);
+    let most = |v: V8| v.x.greater(v.y).greater(v.z);
     let (above, below) = (most(reflectance), most(albedo) * (X8::lit(1.0) - most(reflectance)));
     let sum = above + below;
-    let share = above / select(sum.gt(X8::lit(0.0)), sum, X8::lit(1.0));
-    select(below.gt(X8::lit(0.0)), min(max(share, X8::lit(0.1)), X8::lit(0.9)), X8::lit(1.0))
+    let share = above / Real::blend(sum.gt(X8::lit(0.0)), sum, X8::lit(1.0));
+    Real::blend(below.gt(X8::lit(0.0)), share.greater(X8::lit(0.1)).lesser(X8::lit(0.9)), X8::lit(1.0))
 }
 
 /// The frame about the normals whose first axis is the projection of these directions, or any where that is 0.
@@ -209,7 +209,7 @@ fn about(normal: V8, along: V8) -> Frame<X8> {
     let square = across.length_squared();
     // a direction that nearly is the normal has no projection worth the name
     let some = square.gt(X8::lit(1e-12) * along.length_squared());
-    let t = V8::blend(some, across * (X8::lit(1.0) / select(some, square, X8::lit(1.0)).sqrt()), any.t);
+    let t = V8::blend(some, across * (X8::lit(1.0) / Real::blend(some, square, X8::lit(1.0)).sqrt()), any.t);
     Frame { s: V8::blend(some, t.cross(normal), any.s), t, n: normal }
 }
 

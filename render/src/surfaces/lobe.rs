@@ -1,6 +1,6 @@
 //! What is nearly the light that rough surfaces reflect, with closed forms: the fit of a metal's or a coat's BSDF.
 
-use crate::packet::{M8, V8, X8, max, min, select};
+use crate::packet::{M8, V8, X8};
 use etendue::reflection::Reflection;
 use etendue::select::Gloss;
 use etendue::{Real, Warp};
@@ -24,7 +24,7 @@ pub struct Lobe {
 /// The mean of Schlick's weight (1 − v·m)⁵ over light by the cosine, for a view with this cosine: 2.6e−2 at the horizon, 8e−5 above. To 9e−6.
 #[inline]
 pub fn schlick_of_diffuse(cos: X8) -> X8 {
-    let x = X8::lit(1.0) - min(max(cos, X8::lit(0.0)), X8::lit(1.0));
+    let x = X8::lit(1.0) - cos.greater(X8::lit(0.0)).lesser(X8::lit(1.0));
     [8.995_495e-3, 7.723_49e-3, 9.349_493e-3, 2.013_267e-3, 8.256_414e-5]
         .into_iter()
         .fold(X8::lit(0.0), |sum, coefficient| sum.mul_add(x, X8::lit(coefficient)))
@@ -34,7 +34,7 @@ pub fn schlick_of_diffuse(cos: X8) -> X8 {
 #[inline]
 pub fn cosine_of_schlick(weight: X8) -> X8 {
     let one = X8::lit(1.0);
-    let weight = min(max(weight, X8::lit(1e-15)), one);
+    let weight = weight.greater(X8::lit(1e-15)).lesser(one);
     // Newton's method for the fifth root, from the power 3/16, which is a little above it
     let eighth = weight.sqrt().sqrt().sqrt();
     let mut root = eighth * eighth.sqrt();
@@ -42,7 +42,7 @@ pub fn cosine_of_schlick(weight: X8) -> X8 {
         let square = root * root;
         root = X8::lit(0.8).mul_add(root, X8::lit(0.2) * weight / (square * square));
     }
-    min(max(one - root, X8::lit(0.0)), one)
+    (one - root).greater(X8::lit(0.0)).lesser(one)
 }
 
 /// The least albedo of the diffuse part in a choice of lights, which makes up for what the fit lacks far from the lobe.
@@ -52,9 +52,13 @@ impl Lobe {
     /// What the choice of lights depends on; other lanes than those with a fit are diffuse.
     #[inline]
     pub fn gloss(&self) -> Gloss<X8> {
-        let most = |v: V8| max(max(v.x, v.y), v.z);
-        let diffuse = max(most(self.diffuse), X8::lit(LEAST_DIFFUSE));
-        Gloss::new(select(self.lanes, diffuse, X8::lit(1.0)), most(self.specular).keep(self.lanes), &self.reflection)
+        let most = |v: V8| v.x.greater(v.y).greater(v.z);
+        let diffuse = most(self.diffuse).greater(X8::lit(LEAST_DIFFUSE));
+        Gloss::new(
+            Real::blend(self.lanes, diffuse, X8::lit(1.0)),
+            most(self.specular).keep(self.lanes),
+            &self.reflection,
+        )
     }
     /// Lanes with a rough metal, which reflects nothing but the lobe.
     #[inline]
@@ -64,7 +68,7 @@ impl Lobe {
     /// The fit of f cosθ in the unit direction `w`, per steradian, below the cosine `cos` to the normal.
     #[inline]
     pub fn evaluate(&self, w: V8, cos: X8) -> V8 {
-        let cosine = (max(cos, X8::lit(0.0)) * X8::lit(FRAC_1_PI)).keep(self.coats);
+        let cosine = (cos.greater(X8::lit(0.0)) * X8::lit(FRAC_1_PI)).keep(self.coats);
         self.diffuse.mul_add(cosine, self.specular * self.reflection.pdf(w).keep(self.lanes))
     }
 }

@@ -1,6 +1,6 @@
 //! Intensity by direction, as photometry tells it.
 
-use crate::packet::{V8, X8, select};
+use crate::packet::{V8, X8};
 use etendue::Real;
 use etendue::math::atan2_turns;
 use std::array::from_fn;
@@ -81,7 +81,7 @@ fn interval(angles: &[f32], x: X8) -> ([usize; 8], X8) {
     let index = x.to_array().map(|x| angles.partition_point(|&a| a <= x).saturating_sub(1).min(last));
     let [start, end] = [0, 1].map(|next| X8::from(index.map(|i| angles[(i + next).min(angles.len() - 1)])));
     let (zero, one, width) = (X8::lit(0.0), X8::lit(1.0), end - start);
-    (index, ((x - start) / select(width.gt(zero), width, one)).clamped(zero, one))
+    (index, ((x - start) / Real::blend(width.gt(zero), width, one)).clamped(zero, one))
 }
 
 impl Profile {
@@ -133,7 +133,7 @@ impl Profile {
         let turn = atan2_turns(w.y, w.x) * X8::lit(360.0);
         // the least of the equal azimuths that is not below the first
         let before = turn - X8::lit(360.0);
-        let around = select(before.ge(X8::splat(azimuth[0])), before, turn);
+        let around = Real::blend(before.ge(X8::splat(azimuth[0])), before, turn);
         // a single azimuth stands for all
         let (mut next, is_single) = (0, azimuth.len() == 1);
         if !is_single {

@@ -3,7 +3,7 @@
 use super::fresnel::fresnel;
 use super::metal::{Metal, shadowing};
 use super::walk::Walk;
-use crate::packet::{M8, V8, X8, max, min, select};
+use crate::packet::{M8, V8, X8};
 use crate::scene::Roughness;
 use etendue::warp::GgxVisibleNormals;
 use etendue::{Real, Vec2, u32x8};
@@ -24,9 +24,9 @@ impl Coated {
     pub(super) fn new(metal: &Metal, view: V8, numbers: Vec2<X8>) -> Self {
         let lanes = metal.walks();
         let [eta, along, across, ..] = metal.through.unwrap_or_default();
-        let alpha = [along, across].map(|x| select(lanes, max(x, X8::splat(Roughness::LEAST)), X8::lit(1.0)));
+        let alpha = [along, across].map(|x| Real::blend(lanes, x.greater(X8::splat(Roughness::LEAST)), X8::lit(1.0)));
         // by what a smooth interface reflects; an eighth finds what is far from both lobes
-        let above = fresnel(view.z, select(lanes, eta, X8::lit(1.0)), X8::lit(0.0));
+        let above = fresnel(view.z, Real::blend(lanes, eta, X8::lit(1.0)), X8::lit(0.0));
         let shares = [above.mul_add(X8::lit(0.7), X8::lit(0.05)), X8::lit(0.125)];
         Self { lanes, alpha, shares, seed: [numbers.x.to_bits(), numbers.y.to_bits()] }
     }
@@ -36,7 +36,7 @@ impl Coated {
         let Some(numbers) = &metal.through else { return (V8::default(), by_metal) };
         let m = (light + view).normalize();
         let density = GgxVisibleNormals::new(self.alpha[0], self.alpha[1], view).reflected_pdf(m);
-        let eta = select(self.lanes, numbers[0], X8::lit(1.0));
+        let eta = Real::blend(self.lanes, numbers[0], X8::lit(1.0));
         let reflected = density * shadowing(self.alpha, view, light) * fresnel(view.dot(m), eta, X8::lit(0.0));
         let under = Walk::new(metal, numbers, self.lanes).under(view, light, self.seed);
         let [above, all] = self.shares;
@@ -49,10 +49,10 @@ impl Coated {
     pub(super) fn choose(&self, u: Vec2<X8>, below: [X8; 2]) -> (Vec2<X8>, [X8; 2], M8) {
         let [above, all] = self.shares;
         let (first, last) = (u.x.lt(above), u.x.ge(X8::lit(1.0) - all));
-        let start = select(first, X8::lit(0.0), select(last, X8::lit(1.0) - all, above));
-        let width = select(first, above, select(last, all, X8::lit(1.0) - above - all));
-        let x = select(self.lanes, min((u.x - start) / width, X8::lit(LAST)), u.x);
-        let alpha = [0, 1].map(|i| select(self.lanes & first, self.alpha[i], below[i]));
+        let start = Real::blend(first, X8::lit(0.0), Real::blend(last, X8::lit(1.0) - all, above));
+        let width = Real::blend(first, above, Real::blend(last, all, X8::lit(1.0) - above - all));
+        let x = Real::blend(self.lanes, ((u.x - start) / width).lesser(X8::lit(LAST)), u.x);
+        let alpha = [0, 1].map(|i| Real::blend(self.lanes & first, self.alpha[i], below[i]));
         (Vec2::new(x, u.y), alpha, self.lanes & last)
     }
 }

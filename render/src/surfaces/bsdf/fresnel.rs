@@ -1,6 +1,6 @@
 //! Fresnel's reflectance of metals and dielectrics.
 
-use crate::packet::{X8, max, min, select};
+use crate::packet::X8;
 use etendue::Real;
 
 /// Reflectance of a smooth conductor with index of refraction η + ik for unpolarised light.
@@ -10,7 +10,7 @@ use etendue::Real;
 #[inline]
 pub(super) fn fresnel(cos: X8, eta: X8, k: X8) -> X8 {
     let (zero, one, two) = (X8::lit(0.0), X8::lit(1.0), X8::lit(2.0));
-    let cos = min(max(cos, zero), one);
+    let cos = cos.greater(zero).lesser(one);
     let square = cos * cos;
     let sin = one - square;
     let (eta_squared, k_squared) = (eta * eta, k * k);
@@ -19,12 +19,12 @@ pub(super) fn fresnel(cos: X8, eta: X8, k: X8) -> X8 {
     let sum = t0.mul_add(t0, product).sqrt();
     let opposite = sum - t0;
     let some = opposite.gt(zero);
-    let twice = select(t0.lt(zero), product / select(some, opposite, one), sum + t0);
+    let twice = Real::blend(t0.lt(zero), product / Real::blend(some, opposite, one), sum + t0);
     let t2 = two * cos * (twice * X8::lit(0.5)).sqrt();
     let t1 = sum + square;
     let ratio = |low: X8, high: X8| {
         let some = high.gt(zero);
-        select(some, low / select(some, high, one), one)
+        Real::blend(some, low / Real::blend(some, high, one), one)
     };
     let across = ratio(t1 - t2, t1 + t2);
     let (t3, t4) = (square.mul_add(sum, sin * sin), t2 * sin);

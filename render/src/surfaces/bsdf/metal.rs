@@ -4,7 +4,7 @@ use super::fresnel::fresnel;
 use super::records::{
     COAT, COATED_METAL, DIMMING_COAT, KIND, LAYERED, MIRROR, MaterialRecord, ROUGH_METAL, SMOOTH_METAL,
 };
-use crate::packet::{M8, V8, X8, equal, max, min, select};
+use crate::packet::{M8, V8, X8, equal};
 use crate::surfaces::coat::{POLE, TERMS, range};
 use crate::surfaces::lobe::{Lobe, cosine_of_schlick, schlick_of_diffuse};
 use etendue::reflection::Reflection;
@@ -48,7 +48,7 @@ impl Metal {
     /// Replaces these lanes by those of another.
     #[inline]
     pub fn put(&mut self, lanes: M8, other: &Self) {
-        (0..2).for_each(|i| self.alpha[i] = select(lanes, other.alpha[i], self.alpha[i]));
+        (0..2).for_each(|i| self.alpha[i] = Real::blend(lanes, other.alpha[i], self.alpha[i]));
         if self.grain.is_some() || other.grain.is_some() {
             self.grain = Some(V8::blend(lanes, other.grain.unwrap_or_default(), self.grain.unwrap_or_default()));
         }
@@ -57,7 +57,7 @@ impl Metal {
         self.kind = crate::packet::pick(lanes, other.kind, self.kind);
         if self.through.is_some() || other.through.is_some() {
             let [yes, no] = [&other.through, &self.through].map(|of| of.unwrap_or_default());
-            self.through = Some(std::array::from_fn(|k| select(lanes, yes[k], no[k])));
+            self.through = Some(std::array::from_fn(|k| Real::blend(lanes, yes[k], no[k])));
         }
     }
     /// Lanes of a kind.
@@ -78,7 +78,7 @@ impl Metal {
     /// Lanes of metals below coats of which either is rough.
     #[inline]
     pub fn walks(&self) -> M8 {
-        let rough = |[_, a, b, c, d, ..]: &[X8; TERMS]| max(max(*a, *b), max(*c, *d)).gt(X8::lit(0.0));
+        let rough = |[_, a, b, c, d, ..]: &[X8; TERMS]| (*a).greater(*b).greater((*c).greater(*d)).gt(X8::lit(0.0));
         self.through.as_ref().map_or(M8::splat(false), |numbers| self.is(COATED_METAL) & rough(numbers))
     }
     /// Lanes of coats over diffuse surfaces.
@@ -90,9 +90,9 @@ impl Metal {
     #[inline(never)]
     pub(super) fn through(&self, terms: &[X8; TERMS], cos: X8) -> X8 {
         let [middle, half] = range();
-        let cos = max(cos, X8::lit(0.0));
+        let cos = cos.greater(X8::lit(0.0));
         let x = (cos / (cos + X8::lit(POLE)) - X8::lit(middle)) * X8::lit(1.0 / half);
-        max(terms.iter().rev().fold(X8::lit(0.0), |sum, term| sum.mul_add(x, *term)), X8::lit(0.0))
+        terms.iter().rev().fold(X8::lit(0.0), |sum, term| sum.mul_add(x, *term)).greater(X8::lit(0.0))
     }
     /// The reflectance of coats at the cosine of the view to the normal of the microsurface, per channel.
     #[inline]
@@ -108,7 +108,7 @@ impl Metal {
         let dimming = self.is(DIMMING_COAT);
         let mut through = V8::from([1.0; 3]) - reflectance;
         if dimming.any() {
-            let least = one - max(max(reflectance.x, reflectance.y), reflectance.z);
+            let least = one - reflectance.x.greater(reflectance.y).greater(reflectance.z);
             through = V8::blend(dimming, V8::new(least, least, least), through);
         }
         if let Some(terms) = &self.through {
@@ -140,7 +140,7 @@ impl Metal {
             let mut through = self.under(reflected, X8::lit(2.0 / 3.0));
             if let Some(terms) = &self.through {
                 let layer = self.through(terms, view.dot(normal));
-                through = through * select(layered, layer, one);
+                through = through * Real::blend(layered, layer, one);
             }
             diffuse = V8::new(albedo.x * through.x, albedo.y * through.y, albedo.z * through.z);
             diffuse = V8::blend(coats, diffuse, V8::default());
@@ -157,13 +157,13 @@ impl Metal {
         let Some([coat, ..]) = self.through.as_ref().filter(|_| coated.any()) else { return metal };
         // what goes back and forth between metal and coat is a geometric series
         let (zero, one) = (X8::lit(0.0), X8::lit(1.0));
-        let coat = select(coated, *coat, one);
-        let cos = min(max(cos, zero), one);
-        let below = max(one - (one - cos * cos) / (coat * coat), zero).sqrt();
+        let coat = Real::blend(coated, *coat, one);
+        let cos = cos.greater(zero).lesser(one);
+        let below = (one - (one - cos * cos) / (coat * coat)).greater(zero).sqrt();
         let above = fresnel(cos, coat, zero);
         let series = |metal: X8| {
             let left = one - above;
-            left.mul_add(left * metal / max(one - above * metal, X8::lit(1e-6)), above)
+            left.mul_add(left * metal / (one - above * metal).greater(X8::lit(1e-6)), above)
         };
         let V8 { x, y, z } = self.fresnel(below);
         V8::blend(coated, V8::new(series(x), series(y), series(z)), metal)
@@ -172,7 +172,7 @@ impl Metal {
     #[inline]
     fn schlick(&self, cos: X8) -> V8 {
         let one = X8::lit(1.0);
-        let away = one - min(max(cos, X8::lit(0.0)), one);
+        let away = one - cos.greater(X8::lit(0.0)).lesser(one);
         let square = away * away;
         let fifth = square * square * away;
         self.between(|f0, f90| (f90 - f0).mul_add(fifth, f0))
@@ -200,5 +200,5 @@ pub(super) fn shadowing(alpha: [X8; 2], i: V8, o: V8) -> X8 {
     let (root_i, root_o) = (root(i), root(o));
     let denominator = root_i.mul_add(o.z, root_o * i.z);
     let some = denominator.gt(X8::lit(0.0));
-    (o.z * (root_i + i.z) / select(some, denominator, X8::lit(1.0))).keep(some)
+    (o.z * (root_i + i.z) / Real::blend(some, denominator, X8::lit(1.0))).keep(some)
 }

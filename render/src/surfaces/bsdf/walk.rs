@@ -11,7 +11,7 @@
 
 use super::fresnel::fresnel;
 use super::metal::{Metal, shadowing};
-use crate::packet::{M8, V8, X8, max, min, select};
+use crate::packet::{M8, V8, X8};
 use etendue::sequence::Independent;
 use etendue::warp::GgxVisibleNormals;
 use etendue::{Mask, Real, Vec2, Warp, u32x8};
@@ -34,7 +34,7 @@ struct Micro {
 impl Micro {
     fn new(alpha: [X8; 2]) -> Self {
         let least = X8::splat(LEAST);
-        Self { smooth: alpha[0].lt(least) & alpha[1].lt(least), alpha: alpha.map(|alpha| max(alpha, least)) }
+        Self { smooth: alpha[0].lt(least) & alpha[1].lt(least), alpha: alpha.map(|alpha| alpha.greater(least)) }
     }
     fn normals(&self, w: V8) -> GgxVisibleNormals<X8> {
         GgxVisibleNormals::new(self.alpha[0], self.alpha[1], w)
@@ -45,7 +45,7 @@ impl Micro {
     }
     /// G₂/G₁ of two directions; 1 where it is smooth, and 0 if the second one is below the horizon.
     fn shadowing(&self, i: V8, o: V8) -> X8 {
-        select(self.smooth, X8::lit(1.0), shadowing(self.alpha, i, o)).keep(o.z.gt(X8::lit(0.0)))
+        Real::blend(self.smooth, X8::lit(1.0), shadowing(self.alpha, i, o)).keep(o.z.gt(X8::lit(0.0)))
     }
 }
 
@@ -58,7 +58,7 @@ fn product(a: V8, b: V8) -> V8 {
 }
 
 fn quotient(a: X8, b: X8) -> X8 {
-    a / max(b, X8::lit(TINY))
+    a / b.greater(X8::lit(TINY))
 }
 
 /// The interface of a coat.
@@ -75,7 +75,7 @@ impl Interface {
         let m = self.micro.sample(outside, u);
         let cos = outside.dot(m);
         let ratio = one / self.eta;
-        let refracted = max(one - (one - cos * cos) * ratio * ratio, zero).sqrt();
+        let refracted = (one - (one - cos * cos) * ratio * ratio).greater(zero).sqrt();
         let inside = m.mul_add(refracted - cos * ratio, outside * ratio);
         let passed = one - fresnel(cos, self.eta, zero);
         (inside, (passed * self.micro.shadowing(outside, inside)).keep(cos.gt(zero)))
@@ -84,7 +84,7 @@ impl Interface {
     fn half(&self, inside: V8, outside: V8) -> (V8, X8, M8) {
         let zero = X8::lit(0.0);
         let half = inside * self.eta - outside;
-        let length = max(half.length_squared(), X8::lit(TINY)).sqrt();
+        let length = half.length_squared().greater(X8::lit(TINY)).sqrt();
         let m = half * (X8::lit(1.0) / length);
         let exists = m.z.gt(zero) & m.dot(inside).gt(zero) & m.dot(outside).gt(zero) & inside.z.gt(zero);
         (m, length, exists)
@@ -134,7 +134,7 @@ impl Base<'_> {
     /// The pdf with which [`sample`](Self::sample) finds a direction; 1 where the metal is smooth.
     fn density(&self, w: V8, reflected: V8) -> X8 {
         let density = self.micro.normals(w).reflected_pdf((w + reflected).normalize());
-        select(self.micro.smooth, X8::lit(1.0), density)
+        Real::blend(self.micro.smooth, X8::lit(1.0), density)
     }
     /// The BRDF; 0 where the metal is smooth.
     fn brdf(&self, w: V8, o: V8) -> V8 {
@@ -164,9 +164,9 @@ impl<'a> Walk<'a> {
     /// The layers of the lanes that have them, from the second half of their records.
     pub(super) fn new(metal: &'a Metal, [eta, a, b, c, d, ..]: &[X8; 8], lanes: M8) -> Self {
         // no coat at all would leave no direction of half vectors
-        let eta = select(lanes, max(*eta, X8::lit(1.001)), X8::lit(1.5));
+        let eta = Real::blend(lanes, (*eta).greater(X8::lit(1.001)), X8::lit(1.5));
         let [above, below] =
-            [[*a, *b], [*c, *d]].map(|alpha| Micro::new(alpha.map(|x| select(lanes, x, X8::lit(1.0)))));
+            [[*a, *b], [*c, *d]].map(|alpha| Micro::new(alpha.map(|x| Real::blend(lanes, x, X8::lit(1.0)))));
         Self { coat: Interface { micro: above, eta }, base: Base { micro: below, metal }, lanes }
     }
 
@@ -195,17 +195,17 @@ impl<'a> Walk<'a> {
             let (down, sent) = self.coat.send_back(w, [a, b]);
             part = part * sent;
             // what is left ends at random
-            let most = max(max(part.x, part.y), part.z);
-            let (chance, [u, ..]) = (min(most * X8::lit(3.0), one), numbers(2 * order + 1));
+            let most = part.x.greater(part.y).greater(part.z);
+            let (chance, [u, ..]) = ((most * X8::lit(3.0)).lesser(one), numbers(2 * order + 1));
             let goes_on = u.lt(chance) & most.gt(zero);
             if !goes_on.any() {
                 break;
             }
-            let scale = (one / select(goes_on, chance, one)).keep(goes_on);
+            let scale = (one / Real::blend(goes_on, chance, one)).keep(goes_on);
             part = part * scale;
             let to_light = self.coat.density(light, from_light.inside);
             let weight = quotient(to_light, to_light + self.base.density(down, from_light.inside));
-            let weight = select(self.coat.micro.smooth, one, weight);
+            let weight = Real::blend(self.coat.micro.smooth, one, weight);
             sum += product(part, self.base.brdf(down, from_light.inside)) * (back * weight);
             let (next, reflected) = self.base.sample(down, [c, d]);
             part = product(part, reflected);
@@ -224,7 +224,7 @@ impl<'a> Walk<'a> {
             quotient(self.base.density(from.inside, to.inside), self.coat.density(to.outside, to.inside))
         };
         let weight = one / (one + ratio(a, b) + ratio(b, a));
-        self.base.brdf(a.inside, b.inside) * select(self.coat.micro.smooth, one, weight)
+        self.base.brdf(a.inside, b.inside) * Real::blend(self.coat.micro.smooth, one, weight)
     }
 
     /// Samples the metal from one end of a path with one reflection: the direction, the part of light that has it, and what reaches the
