@@ -8,7 +8,7 @@
 use etendue_benches::report::Report;
 use etendue_laboratory::cost::median;
 use etendue_laboratory::processor_time::processor_seconds;
-use etendue_render::drive::progressive::{self, Goal, Refinement};
+use etendue_render::drive::progressive::{self, Beside, Goal, Refinement};
 use etendue_render::sampler::default_sampler;
 use etendue_render::{RayCount, Settings, Technique, World};
 use serde_json::{Value, json};
@@ -76,7 +76,7 @@ impl Measured {
 fn seconds_to(world: &World, settings: Settings, error: f64, limit: f64) -> Result<Option<f64>, String> {
     let goal = Goal { seconds: Some(limit), error: Some(error) };
     let plan = Refinement { settings, sampler: None, goal };
-    let done = progressive::render(world, &plan, &|_| (), |_, _| (), |_| Ok(()))?;
+    let done = progressive::render(world, &plan, Beside::NOTHING, |_, _| (), |_| Ok(()))?;
     Ok(done.error.is_some_and(|claim| claim.total() <= error).then_some(done.seconds))
 }
 

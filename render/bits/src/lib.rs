@@ -9,7 +9,6 @@ use etendue_render::film::Film;
 use etendue_render::{Sampler, Settings, Technique, World, drive::progressive};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicBool;
 
 /// The committed table.
 pub const TABLE: &str = include_str!("../images.txt");
@@ -68,7 +67,7 @@ pub fn rows(scene: &str) -> Vec<ImageHashes> {
         let ended = progressive::render(
             &world,
             &plan,
-            Beside { stop: &AtomicBool::new(false), progress: &|_| (), tile: None },
+            Beside::NOTHING,
             |_, _| (),
             |known| {
                 (film, passes) = (Some(hash(&known.film)), passes + 1);

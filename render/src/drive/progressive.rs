@@ -104,6 +104,12 @@ pub struct Beside<'a> {
     pub tile: Option<TileListener<'a>>,
 }
 
+impl Beside<'_> {
+    /// Nothing: no pass ends early.
+    pub const NOTHING: Self = Self { stop: &NEVER, progress: &|_| (), tile: None };
+}
+static NEVER: AtomicBool = AtomicBool::new(false);
+
 /// An image that is refined pass by pass, each of the whole or of a part.
 ///
 /// Passes that are too small for the sampler of larger ones are a preview: they are no part of the image as soon as there is a larger one,

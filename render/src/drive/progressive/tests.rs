@@ -6,8 +6,7 @@ use crate::drive::pixel_counts::SamplePlan;
 use crate::scene::{CameraSettings, Emission, Geometry, Material, Parallelogram, Scene, Screen, Shape};
 use std::sync::Mutex;
 
-static NEVER: AtomicBool = AtomicBool::new(false);
-const NOTHING: Beside<'_> = Beside { stop: &NEVER, progress: &|_| (), tile: None };
+const NOTHING: Beside<'_> = Beside::NOTHING;
 
 #[test]
 fn passes_are_averaged_by_their_weights() {
