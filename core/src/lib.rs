@@ -81,6 +81,8 @@ mod lanewise;
 pub mod light;
 #[cfg(feature = "alloc")]
 pub mod lights;
+#[doc(hidden)]
+pub mod listed;
 pub mod math;
 #[doc(hidden)]
 #[cfg(feature = "alloc")]

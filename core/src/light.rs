@@ -61,8 +61,6 @@ mod distant;
 mod environment;
 mod hierarchy;
 mod line;
-#[doc(hidden)]
-pub mod listed;
 mod on_surface;
 mod parallelogram;
 #[doc(hidden)]

@@ -19,8 +19,6 @@ mod cone;
 mod disk;
 mod hemisphere;
 mod linear;
-#[doc(hidden)]
-pub mod listed;
 mod octahedral;
 mod patch;
 mod triangle;

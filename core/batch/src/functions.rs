@@ -9,8 +9,8 @@ use crate::one;
 use crate::packet::Packet;
 use crate::technique::{Prepared, Technique};
 use core::ffi::c_void;
+use etendue::listed::warp::ListedWarp as BatchWarp;
 use etendue::reflection::Reflection;
-use etendue::warp::listed::ListedWarp as BatchWarp;
 use etendue::{Vec2, Vec3};
 
 type Column = *const f32;

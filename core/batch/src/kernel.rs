@@ -10,10 +10,10 @@ use crate::technique::{Prepared, Technique};
 use core::ffi::c_void;
 use core::mem::MaybeUninit;
 use core::ptr::{from_ref, null_mut};
+use etendue::listed::warp::{Coordinates, ListedWarp as BatchWarp};
 use etendue::reflection::Reflection;
 use etendue::select::LightChoice;
 use etendue::sequence::Sequence;
-use etendue::warp::listed::{Coordinates, ListedWarp as BatchWarp};
 use etendue::{LightSampler, Uint, Vec2, Vec3, Warp};
 
 /// Prepared lights of more bytes are used by functions that several loops share, where a call takes little beside what it does.

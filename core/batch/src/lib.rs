@@ -47,7 +47,7 @@
 #![cfg_attr(not(test), no_std)]
 
 #[doc(no_inline)]
-pub use etendue::warp::listed::{ListedWarp as BatchWarp, WARPS};
+pub use etendue::listed::warp::{ListedWarp as BatchWarp, WARPS};
 
 mod columns;
 mod functions;

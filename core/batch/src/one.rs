@@ -7,7 +7,7 @@ use crate::packet::IS_LONG;
 use crate::technique::{Prepared, Technique};
 use core::ffi::c_void;
 use core::mem::MaybeUninit;
-use etendue::warp::listed::{Coordinates, ListedWarp as BatchWarp};
+use etendue::listed::warp::{Coordinates, ListedWarp as BatchWarp};
 use etendue::{LightSampler, Vec2, Warp};
 
 /// True in the compilation whose functions of one element and preparations nobody asks for: they do nothing there. x86-64-v4 would compile

@@ -8,9 +8,9 @@ use crate::map::{MAPS, PortalDirection, ReflectedSphere, SeenThroughPortals};
 use crate::packet::{IS_LONG, Lanes, Packet};
 use crate::sequence::SEQUENCES;
 use crate::technique::{self, TECHNIQUES};
+use etendue::listed::warp::WARPS;
 use etendue::reflection::Reflection;
 use etendue::sequence::{Independent, JointSobol, OwenSobol, Stratified};
-use etendue::warp::listed::WARPS;
 use etendue::warp::*;
 
 /// The functions of one level of instructions, over packets of one width.

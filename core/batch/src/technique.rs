@@ -3,7 +3,8 @@
 use crate::memory::{ImageMemory, PictureMemory, PortalMemory};
 use crate::sealed::{Samplers, Sealed, Techniques};
 use core::marker::PhantomData;
-use etendue::light::{self, Area, Flat, PicturedSampler, Projected, SolidAngle, VisibleSphere, listed};
+use etendue::light::{self, Area, Flat, PicturedSampler, Projected, SolidAngle, VisibleSphere};
+use etendue::listed::light as listed;
 use etendue::{LightSampler, Real, Vec3};
 
 /// A light prepared for a shading point, or the same for all of them, in numbers of single precision.
@@ -57,7 +58,7 @@ macro_rules! with {
     }};
 }
 #[doc(inline)]
-pub use etendue::light::listed::technique::*;
+pub use etendue::listed::light::technique::*;
 
 /// The numbers of techniques of lights with memory, after those of the core's list.
 #[derive(Clone, Copy)]

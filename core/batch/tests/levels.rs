@@ -3,11 +3,11 @@
 mod every;
 
 use etendue::light::{EnvironmentMap, ImageEnvironment, PortalTable};
+use etendue::listed::warp::Coordinates;
 use etendue::real::SAME_BITS;
 use etendue::reflection::Reflection;
 use etendue::select::{LightBound, LightChoice, LightTree, Node8};
 use etendue::sequence::Independent;
-use etendue::warp::listed::Coordinates;
 use etendue::{LightSample, LightSampler, Vec2, Vec3, Warp};
 use etendue_batch::memory::{ImageMemory, PortalMemory, PortalShape, PortalSums, TreeMemory};
 use etendue_batch::technique::ImageByRadiance;

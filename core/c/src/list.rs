@@ -8,7 +8,7 @@ use crate::picture::{
 use crate::portal::EtenduePortalsByRadiance;
 use crate::reflection::EtendueReflectionColumns;
 use core::mem::size_of;
-use etendue::light::listed::{ENTRIES, With};
+use etendue::listed::light::{ENTRIES, With};
 use etendue_batch::{Technique, technique};
 
 /// How many of them have no memory.

@@ -6,8 +6,8 @@ use core::ffi::c_void;
 use core::mem::size_of;
 use core::ptr::{NonNull, null};
 use etendue::Vec2;
+use etendue::listed::warp::{ENTRIES, ListedWarp};
 use etendue::reflection::Reflection;
-use etendue::warp::listed::{ENTRIES, ListedWarp};
 use etendue::warp::{self, *};
 use etendue_batch::{Batch, WarpFunctions};
 

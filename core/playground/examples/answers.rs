@@ -5,7 +5,7 @@
 //! `oracle` where there is one.
 
 use etendue::light::LightSample;
-use etendue::light::listed::{Technique, TechniqueVisitor, With, every_technique};
+use etendue::listed::light::{Technique, TechniqueVisitor, With, every_technique};
 use etendue::sequence::{OwenSobol, Sequence};
 use etendue::{LightSampler, Vec2, Vec3};
 use etendue_oracle::{projected_cap, projected_polygon};

@@ -1,7 +1,7 @@
 //! The list of lights and techniques for the page, from that of the core.
 
-use etendue::light::listed::{ENTRIES, Entry, Field, With};
-use etendue::warp;
+use etendue::listed::light::{ENTRIES, Entry, Field, With};
+use etendue::listed::warp;
 use serde_json::{Value, json};
 
 /// Each light: its name, documentation, fields, and those of its techniques that the page shows, which take a point and at most a normal, with
@@ -34,7 +34,7 @@ pub(crate) fn lights() -> Value {
 
 /// The numbers of warps in the C interface, by their names.
 pub(crate) fn warps() -> Value {
-    warp::listed::ENTRIES.iter().map(|entry| (entry.name.to_owned(), json!(entry.index))).collect()
+    warp::ENTRIES.iter().map(|entry| (entry.name.to_owned(), json!(entry.index))).collect()
 }
 
 /// The lines of a documentation comment as one paragraph.

@@ -6,10 +6,10 @@ use crate::module::{Access, Field, Function, Leaf, Module, Parameter, Struct, Ty
 use crate::names::snake;
 use crate::number::{Inner, Number, Truth, record};
 use crate::wanted::{Part, SampleField, Wanted};
-use etendue::light::listed::{self, ListedSampler, Technique, With};
+use etendue::listed::light::{self as listed, ListedSampler, Technique, With};
+use etendue::listed::warp::{Coordinates, ListedWarp};
 use etendue::reflection::Reflection;
 use etendue::warp::Warp;
-use etendue::warp::listed::{Coordinates, ListedWarp};
 use etendue::{LightSample, LightSampler, Real, Vec2, Vec3};
 use std::collections::{BTreeMap, BTreeSet};
 

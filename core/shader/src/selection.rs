@@ -6,8 +6,8 @@ use crate::record::{add_calls, add_technique, add_warp};
 use crate::tables::{add_reflection, tables};
 use crate::tools::{add_tool, tools};
 use crate::wanted::Wanted;
-use etendue::light::listed::{Technique, TechniqueVisitor, every_technique};
-use etendue::warp::listed::{ListedWarp, WarpVisitor, every_warp};
+use etendue::listed::light::{Technique, TechniqueVisitor, every_technique};
+use etendue::listed::warp::{ListedWarp, WarpVisitor, every_warp};
 
 /// The name of a light by a technique.
 #[must_use]

@@ -6,8 +6,8 @@ mod memory;
 mod technique;
 mod warp;
 
-use etendue::light::listed::TECHNIQUES;
-use etendue::warp::listed::WARPS;
+use etendue::listed::light::TECHNIQUES;
+use etendue::listed::warp::WARPS;
 use etendue_c::*;
 use input::Input;
 

@@ -97,6 +97,8 @@ impl<'ast> Visit<'ast> for Named<'_> {
         self.take(&path.segments.iter().map(|segment| segment.ident.to_string()).collect::<Vec<_>>());
         visit::visit_path(self, path);
     }
+    // exported macros are at the root, wherever they are written
+    fn visit_macro(&mut self, _: &'ast syn::Macro) {}
     // visibility is no import
     fn visit_visibility(&mut self, _: &'ast syn::Visibility) {}
 }

@@ -1,8 +1,8 @@
 //! The parts of the bindings that no macro can expand are what the core's list of techniques gives. `WRITE=1 cargo test -p etendue-tests
 //! bindings` writes them anew.
 
-use etendue::light::listed::{ENTRIES, Entry, With};
-use etendue::warp::listed::{self, WarpEntry};
+use etendue::listed::light::{ENTRIES, Entry, With};
+use etendue::listed::warp::{self, WarpEntry};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -209,7 +209,7 @@ fn python() -> String {
 
 /// A line for each warp without parameters.
 fn fixed_warps(line: impl Fn(&WarpEntry) -> String) -> String {
-    listed::ENTRIES.iter().filter(|warp| warp.numbers == 0).map(line).collect()
+    warp::ENTRIES.iter().filter(|warp| warp.numbers == 0).map(line).collect()
 }
 fn cpp_warps() -> String {
     fixed_warps(|warp| {

@@ -2,7 +2,7 @@
 
 use crate::driver::{HOSTILE, slots};
 use crate::program::Driver;
-use etendue::light::listed::{Entry, Technique, TechniqueVisitor, With, every_technique};
+use etendue::listed::light::{Entry, Technique, TechniqueVisitor, With, every_technique};
 use etendue::reflection::Reflection;
 use etendue::{LightSample, LightSampler, Real, Vec2, Vec3};
 use etendue_judge::area_lights::AreaLight;

@@ -2,7 +2,7 @@
 
 use crate::driver::{HOSTILE, slots};
 use crate::program::Driver;
-use etendue::warp::listed::{Coordinates, ListedWarp, WarpVisitor, every_warp};
+use etendue::listed::warp::{Coordinates, ListedWarp, WarpVisitor, every_warp};
 use etendue::{Vec2, Warp};
 use etendue_judge::generators::{Random, unit_or_edge};
 use etendue_oracle::tier::cases;

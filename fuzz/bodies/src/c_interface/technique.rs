@@ -3,7 +3,7 @@
 use super::input::{Input, fraction, unit, units};
 use super::memory::Memory;
 use super::{COUNTS, Column, FIELDS, LIGHT, Output, SAMPLER, all_finite, fields, same, sample_columns};
-use etendue::light::listed::{ENTRIES, Entry, With};
+use etendue::listed::light::{ENTRIES, Entry, With};
 use etendue_c::*;
 use std::ffi::c_void;
 use std::ptr::{from_ref, null, null_mut};

@@ -3,7 +3,7 @@
 use super::input::{Input, fraction, unit};
 use super::memory::Memory;
 use super::{COUNTS, Column, Output, all_finite};
-use etendue::warp::listed::ENTRIES;
+use etendue::listed::warp::ENTRIES;
 use etendue_c::*;
 use std::ptr::{null, null_mut};
 

@@ -1,7 +1,7 @@
 //! Warps, as those see them who do something with all of the list.
 
 use crate::lanewise::Lanewise;
-use crate::light::listed::{Lines, Sealed};
+use crate::listed::light::{Lines, Sealed};
 use crate::real::Real;
 use crate::reflection::Reflection;
 use crate::vector::{Vec2, Vec3};
