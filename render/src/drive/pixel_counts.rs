@@ -95,6 +95,8 @@ pub(super) struct PixelCounts<'a> {
     /// The pixels [x0, y0, x1, y1).
     pub(super) area: Area,
     pilot: &'a [Statistics],
+    /// What each pixel [wants](wanted).
+    wanted: Vec<[f64; 2]>,
     /// Packets of each pixel in each set, with those of the pilot.
     packets: Vec<u32>,
     /// The same with those that only see what the camera sees directly.
@@ -119,24 +121,30 @@ impl<'a> PixelCounts<'a> {
     /// Panics if the pilot is not one of the area's size.
     pub(super) fn new(settings: &Settings, area: Area, pilot: &'a [Statistics]) -> Self {
         assert_eq!(pilot.len(), area::count(area));
-        let plan = SamplePlan::new(settings).after_pilot(pilot[0].packets.max(1));
-        let ([packets, looks], weights) = count_packets(pilot, area[2] - area[0], &plan);
+        let (wanted, weights) = all_wanted(pilot, area[2] - area[0]);
         let (lights, of) = weights.unwrap_or_default();
-        let squares: Vec<_> = pilot.iter().map(|p| [p.square() as f32, p.outline.square() as f32]).collect();
-        let counts = packets.iter().zip(&looks).map(|(packets, looks)| [*packets, *looks]);
-        let of_pixel = |(squares, counts): (&[f32; 2], [u32; 2])| expected(squares.map(f64::from), counts);
-        let expected = (1.0 + BESIDE) * squares.iter().zip(counts).map(of_pixel).sum::<f64>();
-        Self {
+        let counts = Self {
             area,
-            expected,
-            packets,
-            looks,
+            expected: 0.0,
+            wanted,
+            packets: Vec::new(),
+            looks: Vec::new(),
             lights,
             weights: of,
-            squares,
+            squares: pilot.iter().map(|p| [p.square() as f32, p.outline.square() as f32]).collect(),
             begun: pilot.iter().map(|pixel| pixel.taken).collect(),
             pilot,
-        }
+        };
+        counts.shared(settings)
+    }
+    /// From the same pilot, for other settings.
+    pub(super) fn shared(self, settings: &Settings) -> Self {
+        let plan = SamplePlan::new(settings).after_pilot(self.pilot[0].packets.max(1));
+        let [packets, looks] = share_out(&self.wanted, (self.area[2] - self.area[0]) as usize, &plan);
+        let counts = packets.iter().zip(&looks).map(|(packets, looks)| [*packets, *looks]);
+        let of_pixel = |(squares, counts): (&[f32; 2], [u32; 2])| expected(squares.map(f64::from), counts);
+        let expected = (1.0 + BESIDE) * self.squares.iter().zip(counts).map(of_pixel).sum::<f64>();
+        Self { expected, packets, looks, ..self }
     }
     /// The weights of the lights, if samples are shared by weight.
     pub(super) fn weights(&self) -> Option<LightWeights<'_>> {
@@ -147,18 +155,18 @@ impl<'a> PixelCounts<'a> {
         let [left, top, right, _] = self.area;
         ((y - top) * (right - left) + (x - left)) as usize
     }
-    /// The part of the time after the pilot that some tiles take: half a packet in each pixel, besides what its counts say.
-    pub(super) fn part(&self, is_some: &dyn Fn(Area) -> bool) -> f64 {
+    /// The time that a tile takes after the pilot, in that of a packet in each set: half a packet in each pixel, besides what its counts say.
+    pub(super) fn time(&self, tile: Area) -> f64 {
         let of_pixel = |pixel| {
             let [samples, looks] = self.counts_at(pixel).map(f64::from);
             0.5 + samples - f64::from(self.pilot[0].packets) + LOOK * (looks - samples)
         };
-        let of_tile = |tile: Area| area::pixels(tile).map(of_pixel).sum::<f64>();
-        let (some, all) = tiles(self.area).fold((0.0, 0.0), |(some, all), tile| {
-            let time = of_tile(tile);
-            (some + if is_some(tile) { time } else { 0.0 }, all + time)
-        });
-        some / all
+        area::pixels(tile).map(of_pixel).sum()
+    }
+    /// The part of that time that some tiles take.
+    pub(super) fn part(&self, is_some: &dyn Fn(Area) -> bool) -> f64 {
+        let sum = |is: &dyn Fn(Area) -> bool| tiles(self.area).filter(|&t| is(t)).map(|t| self.time(t)).sum::<f64>();
+        sum(is_some) / sum(&|_| true)
     }
     /// Packets of a pixel in each set, with those of the pilot; and with those that only look.
     fn counts_at(&self, pixel: [u32; 2]) -> [u32; 2] {
@@ -276,9 +284,9 @@ fn set_sum(pilot: [&[[f64; 3]; 4]; 2], [rest, looks]: [&Statistics; 2], counts: 
 /// The number of lights to which samples are allocated, and the weight of each at each pixel.
 type Shared = (usize, Vec<f32>);
 
-/// Packets per set for each pixel, and with those that only look, from the variance of the pilot; and the number of lights and their weights,
-/// if samples are allocated to at most `APART` lights.
-fn count_packets(parts: &[Statistics], width: u32, plan: &SamplePlan) -> ([Vec<u32>; 2], Option<Shared>) {
+/// What each pixel [wants](wanted) by the variance of the pilot; and the number of lights and their weights, if samples are allocated to at most
+/// `APART` lights.
+fn all_wanted(parts: &[Statistics], width: u32) -> (Vec<[f64; 2]>, Option<Shared>) {
     let (columns, lights) = (width as usize, parts[0].lights);
     let around = |of: &dyn Fn(&Statistics) -> f64| {
         let values: Vec<_> = parts.iter().map(of).collect();
@@ -308,8 +316,7 @@ fn count_packets(parts: &[Statistics], width: u32, plan: &SamplePlan) -> ([Vec<u
     };
     let scale = if lights == 0 { 1.0 } else { 16.0 };
     let outlines = around(&|part| scale * part.outline.variance);
-    let wanted: Vec<_> = own.into_iter().zip(outlines).map(|(own, outlines)| wanted(own, outlines)).collect();
-    (share_out(&wanted, columns, plan), weights)
+    (own.into_iter().zip(outlines).map(|(own, outlines)| wanted(own, outlines)).collect(), weights)
 }
 
 /// The numbers of samples, and of these and those that only look, in proportion, for which the squared error is least for a given time: `own`

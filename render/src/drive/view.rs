@@ -19,7 +19,9 @@ use crate::scene::area::{self, Area};
 use crate::settings::{Settings, tiles};
 use crate::technique::Technique;
 use rayon::prelude::*;
+use std::cmp::Reverse;
 use std::fmt::{self, Debug, Formatter};
+use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
@@ -31,17 +33,34 @@ const BOUNDED: usize = 16;
 pub(super) struct Begun {
     /// Samples per pixel of the pilot.
     pub(super) pilot: u32,
-    /// Samples per pixel of the tiles that are finished, if any are.
+    /// Samples per pixel of the last tiles that are finished, if any are.
     pub(super) spp: u32,
-    /// The part of the time after the pilot that these take by their counts.
+    /// The part of the time after the pilot that those that are finished take by their counts.
     pub(super) part: f64,
+    /// Their samples after the pilot, over the pixels of the image.
+    pub(super) samples: f64,
     /// Seconds that they took after the pilot.
     pub(super) seconds: f64,
 }
 
-/// Whether a tile is one of the eighth that tells how fast samples are taken: no two in a row or column of eight.
-const fn is_scattered([x, y, ..]: Area) -> bool {
-    (x / Settings::TILE + 3 * (y / Settings::TILE)) % 8 == 3
+impl Begun {
+    /// With tiles that have `spp` samples per pixel, are such a part, and took so long.
+    pub(super) fn and(self, spp: u32, part: f64, seconds: f64) -> Self {
+        let samples = self.samples + part * f64::from(spp.saturating_sub(self.pilot));
+        Self { spp, part: self.part + part, samples, seconds: self.seconds + seconds, ..self }
+    }
+    /// The mean number of samples per pixel.
+    pub(super) fn mean(&self) -> u32 {
+        self.pilot + (self.samples / self.part.max(f64::MIN_POSITIVE)).round() as u32
+    }
+}
+
+/// The groups of scattered tiles that are rendered one after the other where time is given, in eighths of the image.
+pub(super) const GROUPS: [Range<u32>; 3] = [0..1, 1..4, 4..8];
+
+/// Which of the eighths of the image a tile is in: no two of one are in a row or column of eight.
+const fn scattered([x, y, ..]: Area) -> u32 {
+    (x / Settings::TILE + 3 * (y / Settings::TILE) + 5) % 8
 }
 
 /// A function that is called with each finished tile: its area, its pixels row by row, and their mean number of samples.
@@ -267,8 +286,8 @@ impl View<'_> {
         (pixels, rays)
     }
 
-    /// Like [`View::render`], but with [`Sampler::Adaptive`] `grown` decides how many samples per pixel there are: first after the pilot, for a few
-    /// scattered tiles, and after these for the others. It may depend on time, never on samples. Returns the mean number, too.
+    /// Like [`View::render`], but with [`Sampler::Adaptive`] `grown` decides how many samples per pixel there are, before each of some groups of
+    /// scattered tiles. It may depend on time, never on samples. Returns the mean number, too.
     ///
     /// # Panics
     /// Panics if the area does not consist of tiles, or if the image cannot have so many samples.
@@ -286,22 +305,27 @@ impl View<'_> {
                 let (found, mut rays) = self.pilot(area);
                 pilot = found;
                 let plan = self.plan();
-                let mut begun = Begun { pilot: 8 * plan.pilot * plan.sets, spp: 0, part: 0.0, seconds: 0.0 };
-                for is_first in if grown.is_some() { &[true, false][..] } else { &[false] } {
-                    let spp_now = grown.map_or(spp, |grown| grown(begun));
-                    let settings = Settings { spp: spp_now, ..self.settings };
+                let mut begun =
+                    Begun { pilot: 8 * plan.pilot * plan.sets, spp: 0, part: 0.0, samples: 0.0, seconds: 0.0 };
+                let mut known = None;
+                for eighths in if grown.is_some() { &GROUPS[..] } else { &[0..8] } {
+                    let spp = grown.map_or(spp, |grown| grown(begun));
+                    let settings = Settings { spp, ..self.settings };
                     assert_eq!(settings.check(), Ok(()));
                     let view = Self { settings, pilot: Some(plan.pilot), ..*self };
-                    let counts = PixelCounts::new(&settings, area, &pilot);
-                    let is_now = |tile: Area| grown.is_none() || is_scattered(tile) == *is_first;
-                    let (part, start) = (counts.part(&is_now), Instant::now());
-                    rays += view.rest(&counts, progress, &is_now, &mut pixels);
-                    begun = Begun { spp: spp_now, part, seconds: start.elapsed().as_secs_f64(), ..begun };
-                    spp = if *is_first {
-                        spp_now
-                    } else {
-                        (f64::from(spp) + part * (f64::from(spp_now) - f64::from(spp))).round() as u32
+                    let counts = match known.take() {
+                        None => PixelCounts::new(&settings, area, &pilot),
+                        Some(counts) if spp == begun.spp => counts,
+                        Some(counts) => counts.shared(&settings),
                     };
+                    let counts = known.insert(counts);
+                    let is_now = |tile: Area| eighths.contains(&scattered(tile));
+                    let (part, start) = (counts.part(&is_now), Instant::now());
+                    rays += view.rest(counts, progress, &is_now, &mut pixels);
+                    begun = begun.and(spp, part, start.elapsed().as_secs_f64());
+                }
+                if grown.is_some() {
+                    spp = begun.mean();
                 }
                 rays
             }
@@ -321,7 +345,10 @@ impl View<'_> {
         pixels: &mut [Pixel],
     ) -> RayCount {
         let (weights, plan) = (counts.weights(), self.plan());
-        self.tiles(counts.area, is_now, pixels, &|renderer, tile| {
+        // the longest first, so that none is left alone at the end
+        let mut order: Vec<_> = tiles(counts.area).filter(|&tile| is_now(tile)).collect();
+        order.sort_by_cached_key(|&tile| Reverse(counts.time(tile).to_bits()));
+        self.tiles(counts.area, order.into_iter(), pixels, &|renderer, tile| {
             let pixels = counts.rest(renderer, tile, weights.as_ref(), &plan);
             self.tell(tile, &pixels);
             progress(pixels.len() as u64);
@@ -356,7 +383,7 @@ impl View<'_> {
     fn pilot(&self, area: Area) -> (Vec<Statistics>, RayCount) {
         let SamplePlan { sets, pilot, .. } = self.plan();
         let mut all = vec![Statistics::default(); area::count(area)];
-        let rays = self.tiles(area, &|_| true, &mut all, &|renderer, area| {
+        let rays = self.tiles(area, tiles(area), &mut all, &|renderer, area| {
             renderer.begin(area);
             let parts = renderer.parts(area, pilot, 0..sets, None, |_| [0, pilot]);
             if let Some(Told(listener)) = self.told {
@@ -377,7 +404,7 @@ impl View<'_> {
 
     /// The same number of samples for each pixel.
     fn pixels<V: Sample>(&self, area: Area, progress: &(dyn Fn(u64) + Sync), pixels: &mut [Pixel]) -> RayCount {
-        self.tiles(area, &|_| true, pixels, &|renderer, area| {
+        self.tiles(area, tiles(area), pixels, &|renderer, area| {
             let pixels = renderer.all(area, PixelSum::<V>::default());
             self.tell(area, &pixels);
             progress(pixels.len() as u64);
@@ -394,18 +421,17 @@ impl View<'_> {
         TileRenderer::new(self.world, &self.settings, self.camera, exposure, know, is_counted)
     }
 
-    /// Calls `of` for each tile that is chosen, in parallel, and puts the rows it returns into those of the area.
+    /// Calls `of` for each tile, in parallel, and puts the rows it returns into those of the area. Tiles differ in time by orders of magnitude, so
+    /// each thread takes the next one as soon as it is free.
     fn tiles<T: Clone + Default + Send>(
         &self,
         area: Area,
-        is_now: &dyn Fn(Area) -> bool,
+        order: impl Iterator<Item = Area> + Send,
         pixels: &mut [T],
         of: &(dyn Fn(&mut TileRenderer, Area) -> Vec<T> + Sync),
     ) -> RayCount {
-        let rendered: Vec<_> = tiles(area)
-            .filter(|&tile| is_now(tile))
-            .collect::<Vec<_>>()
-            .into_par_iter()
+        let rendered: Vec<_> = order
+            .par_bridge()
             .map_init(
                 || self.renderer(),
                 |renderer, area| {

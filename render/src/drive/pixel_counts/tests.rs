@@ -6,6 +6,12 @@ use super::*;
 use crate::sampler::Sampler;
 use crate::technique::Technique;
 
+/// Packets per set for each pixel, and with those that only look; and the lights with their weights.
+fn count_packets(parts: &[Statistics], width: u32, plan: &SamplePlan) -> ([Vec<u32>; 2], Option<Shared>) {
+    let (wanted, weights) = all_wanted(parts, width);
+    (share_out(&wanted, width as usize, plan), weights)
+}
+
 const WIDTH: usize = 17;
 const HEIGHT: usize = 15;
 

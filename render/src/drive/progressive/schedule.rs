@@ -1,7 +1,7 @@
 //! How many samples the next pass takes, so that the time or the error is what was asked for.
 //!
 //! One large pass has less error than several of as many samples together. So each pass is to fill the time that is left: with the sampler
-//! `adaptive`, it decides its number of samples after its pilot and an eighth of the tiles, whose time tells how fast it goes.
+//! `adaptive`, it decides its number of samples after its pilot, after an eighth of the tiles and after half of them, by how fast these were.
 
 use crate::bvh::RayCount;
 use crate::drive::view::Begun;
@@ -75,6 +75,8 @@ const WORTH: f64 = 1.0 / 16.0;
 const PATIENCE: usize = 32;
 /// The number of samples per pixel after which an error that is still uncertain is given up, if no time ends the rendering.
 pub(super) const MOST_UNCERTAIN: u32 = 1 << 17;
+/// A pass keeps its number of samples if it would change by less than this part: finding those of pixels takes time.
+const ALIKE: f64 = 1.0 / 16.0;
 /// The part of the remaining time that a pass may be predicted to take.
 const SPARE: f64 = 0.93;
 
@@ -186,11 +188,11 @@ impl Schedule {
     /// the start of the pass, and it is `seconds` after that of the first.
     pub(super) fn grown(&self, (spp, most): (u32, f64), begun: Begun, [pilot, now, seconds]: [f64; 3]) -> u32 {
         let Some(time) = self.goal.seconds else { return spp };
-        let Begun { pilot: samples, spp: of_tiles, part, seconds: took } = begun;
-        let (left, more) = ((time - seconds) * SPARE, f64::from(of_tiles.saturating_sub(samples)));
-        let fits = if more * part > 0.0 {
-            // finding their numbers takes as long again
-            (left - (now - pilot - took)) / (1.0 - part).max(1e-3) * more * part / took
+        let Begun { pilot: samples, spp: of_tiles, part, samples: more, seconds: took } = begun;
+        let left = (time - seconds) * SPARE;
+        let fits = if more > 0.0 {
+            // finding their numbers again takes less than half as long
+            (left - 0.4 * (now - pilot - took)) / (1.0 - part).max(1e-3) * more / took
         } else if of_tiles > 0 {
             f64::from(of_tiles) - f64::from(samples)
         } else {
@@ -202,6 +204,9 @@ impl Schedule {
         // the least pilot would tell too little of many samples
         let stays = is_first && (fits > SHORT || spp == self.full);
         let next = if stays { spp.into() } else { fits.min(most) };
+        if of_tiles > 0 && (next / f64::from(of_tiles) - 1.0).abs() < ALIKE {
+            return of_tiles;
+        }
         // a whole number in each set
         let sets = self.full / FEWEST;
         (next.min(MOST_SAMPLES.into()) as u32 / sets * sets).max(self.full)

@@ -3,6 +3,7 @@
 use super::schedule::MOST_UNCERTAIN;
 use super::*;
 use crate::drive::pixel_counts::SamplePlan;
+use crate::drive::view::GROUPS;
 use crate::scene::{CameraSettings, Emission, Geometry, Material, Parallelogram, Scene, Screen, Shape};
 use std::sync::Mutex;
 
@@ -252,15 +253,17 @@ fn used(refined: &Refined, most: f64, costs: Costs, early: f64) -> [f64; 2] {
             let samples = 8 * SamplePlan::new(&settings).pilot;
             let more = |spp: u32| each * f64::from(spp.saturating_sub(samples));
             let pilot = fixed + f64::from(samples);
-            let mut begun = Begun { pilot: samples, spp: 0, part: 0.0, seconds: 0.0 };
+            let mut begun = Begun { pilot: samples, spp: 0, part: 0.0, samples: 0.0, seconds: 0.0 };
             let mut now = pilot;
-            for part in [0.125, 0.875] {
+            for part in GROUPS.map(|eighths| eighths.len() as f64 / 8.0) {
                 let spp = schedule.grown(next, begun, [pilot, now, mean.seconds + now]);
-                let seconds = part * more(spp) * if part < 0.5 { early } else { (1.0 - 0.125 * early) / 0.875 };
-                now += counts + seconds;
-                begun = Begun { spp, part, seconds, ..begun };
+                let seconds = part * more(spp) * if begun.spp == 0 { early } else { (1.0 - 0.125 * early) / 0.875 };
+                // numbers that are found again are shared out by what is known of the pixels
+                let found = if begun.spp == 0 { 1.0 } else { 0.4 * f64::from(u8::from(spp != begun.spp)) };
+                now += found * counts + seconds;
+                begun = begun.and(spp, part, seconds);
             }
-            pass = Pass { spp: begun.spp, sampler: Sampler::Adaptive, seed: 0, seconds: now };
+            pass = Pass { spp: begun.mean(), sampler: Sampler::Adaptive, seed: 0, seconds: now };
             schedule.timing = Some(Timing::new(pass.spp, now, (samples, pilot)));
         }
         let own = f64::from(pass.spp).powf(1.5);
@@ -296,7 +299,7 @@ fn passes_use_the_time() {
         [0.0, 6.0, 0.85, 0.3],
         [0.0, 5.0, 1.2, 1.5],
     ] {
-        for early in [0.9, 1.0, 1.1] {
+        for early in [0.7, 1.0, 1.3] {
             let mut worst = [1.0_f64, 0.0, 1.0, 0.0];
             for step in 0..200 {
                 let most = 64.0 * (0.05 * f64::from(step)).exp2();
@@ -306,7 +309,7 @@ fn passes_use_the_time() {
                 worst = [worst[0].min(part), worst[1].max(part), worst[2].max(error), most];
             }
             println!("{fixed} {counts} {each} {preview} {early}: {worst:.3?}");
-            if early == 1.0 {
+            if early <= 1.0 {
                 all = [all[0].min(worst[0]), all[1].max(worst[1]), all[2].max(worst[2])];
             }
         }
