@@ -147,8 +147,8 @@ pub(crate) fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     let start = Instant::now();
     let asked = settings;
     let (settings, trial) = pool.install(|| {
-        let view = world.view(&asked);
-        (*view.settings(), view.trial().copied())
+        let view = world.view(&plan.as_ref().map_or(asked, Refinement::of_trial));
+        (Settings { spp: asked.spp, ..*view.settings() }, view.trial().copied())
     });
     let spent = start.elapsed().as_secs_f64();
     let trial = trial.map(|trial| (trial, spent));

@@ -81,6 +81,14 @@ impl Refinement {
         }
         Ok(valid)
     }
+    /// The settings of the trial before the first pass: with as many samples as the time has room for at a million a second, if these are more.
+    #[must_use]
+    pub fn of_trial(&self) -> Settings {
+        let Settings { width, height, spp, .. } = self.settings;
+        let room = 1e6 * self.goal.seconds.unwrap_or(0.0) / (f64::from(width) * f64::from(height));
+        let most = self.counts().ok().and_then(|counts| at_most(&counts, room));
+        Settings { spp: most.map_or(spp, |most| most.max(spp)), ..self.settings }
+    }
     /// The exponent of the number of samples in the squared error, and so in the weight of a pass.
     const fn power(&self) -> f64 {
         match self.sampler {

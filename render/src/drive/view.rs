@@ -308,7 +308,7 @@ impl View<'_> {
                 let mut begun =
                     Begun { pilot: 8 * plan.pilot * plan.sets, spp: 0, part: 0.0, samples: 0.0, seconds: 0.0 };
                 let mut known = None;
-                for eighths in if grown.is_some() { &GROUPS[..] } else { &[0..8] } {
+                for eighths in if grown.is_some() { &GROUPS[..] } else { std::slice::from_ref(&(0..8)) } {
                     let spp = grown.map_or(spp, |grown| grown(begun));
                     let settings = Settings { spp, ..self.settings };
                     assert_eq!(settings.check(), Ok(()));

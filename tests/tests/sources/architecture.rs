@@ -287,6 +287,19 @@ fn dependencies(package: &str, dev: bool) -> Vec<String> {
     lines.map(|line| name(&line)).filter(|name| !name.is_empty()).collect()
 }
 
+/// The folders of the packages that each one uses by the table of the architecture; and those that only its tests, benchmarks and examples use.
+fn arrows() -> BTreeMap<String, [BTreeSet<String>; 2]> {
+    let text = fs::read_to_string(root().join("render/ARCHITECTURE.md")).unwrap();
+    let folders = |cell: &str| cell.split('`').skip(1).step_by(2).map(str::to_owned).collect::<BTreeSet<_>>();
+    let mut arrows = BTreeMap::new();
+    for row in text.lines().filter(|line| line.starts_with("| `")) {
+        let cells: Vec<_> = row.split('|').collect();
+        let (normal, dev) = cells[3].split_once('(').unwrap_or((cells[3], ""));
+        arrows.extend(folders(cells[1]).into_iter().map(|folder| (folder, [normal, dev].map(folders))));
+    }
+    arrows
+}
+
 #[test]
 fn packages_depend_one_way() {
     let [_, workspace, ..] = &sections(&root().join("Cargo.toml"))[..] else { panic!("no workspace") };
@@ -298,30 +311,20 @@ fn packages_depend_one_way() {
         lines.filter_map(|line| Some(line.strip_prefix("name = \"")?.trim_end_matches('"').to_owned())).next().unwrap()
     };
     let names = PACKAGES.map(|(package, _)| name(package));
-    let is_test = |package: &str| package.starts_with("tests") || package.starts_with("fuzz");
-    let mut count = 0;
+    let arrows = arrows();
+    assert_eq!(arrows.len(), PACKAGES.len());
     for (k, (package, _)) in PACKAGES.into_iter().enumerate() {
         for is_dev in [false, true] {
             let own = dependencies(package, is_dev).into_iter().filter(|name| name.starts_with("etendue"));
-            for other in own {
-                let before = names[..k].iter().position(|name| *name == other);
-                let place = before.unwrap_or_else(|| panic!("{package} must not depend on {other}"));
-                // what tests alone use is no part of anything else
-                assert!(
-                    is_dev || is_test(package) || !is_test(PACKAGES[place].0),
-                    "{package} must not depend on {other}"
-                );
-                count += 1;
-            }
+            let place = |other: String| names[..k].iter().position(|name| *name == other);
+            let folders = own.map(|other| match place(other.clone()) {
+                Some(place) => PACKAGES[place].0.to_owned(),
+                None => panic!("{package} must not depend on {other}"),
+            });
+            assert_eq!(folders.collect::<BTreeSet<_>>(), arrows[package][usize::from(is_dev)], "{package}, {is_dev}");
         }
     }
-    assert!(count > 50, "{count} dependencies");
-    for alone in ["tests/oracle", "core"] {
-        let own = dependencies(alone, false)
-            .into_iter()
-            .filter(|name| alone == "tests/oracle" || name.starts_with("etendue"));
-        assert_eq!(own.count(), 0, "{alone} must depend on nothing");
-    }
+    assert!(dependencies("tests/oracle", false).is_empty(), "the oracle must depend on nothing");
     let scene = dependencies("render/scene", false);
     assert!(scene.iter().any(|name| name == "image"), "{scene:?}");
     let render = dependencies("render", false);
@@ -412,6 +415,27 @@ fn documents_are_short() {
     let others = sum - own.iter().map(|(_, words, _)| words).sum::<usize>();
     println!("README.md has {readme} words, {own:?}, all others {others}");
     assert!((300..=1000).contains(&readme) && own.iter().all(|(_, words, most)| words <= most) && others <= 9200);
+}
+
+/// Tests that only run when they are asked for are told where those who might ask look.
+#[test]
+fn ignored_tests_are_listed() {
+    let mut found = BTreeSet::new();
+    for path in sources(&[".rs"]) {
+        let text = fs::read_to_string(path).unwrap();
+        for after in text.split("\n#[ignore").skip(1) {
+            found.extend(after.split_once("fn ").map(|(_, rest)| rest.split('(').next().unwrap().to_owned()));
+        }
+    }
+    let text = fs::read_to_string(root().join("tests/README.md")).unwrap();
+    let rows =
+        text.lines().skip_while(|line| !line.starts_with("| test |")).skip(2).take_while(|line| line.starts_with('|'));
+    let first =
+        |row: &str| row.split('|').nth(1).unwrap().split('`').skip(1).step_by(2).map(str::to_owned).collect::<Vec<_>>();
+    let mut listed: BTreeSet<_> = rows.flat_map(first).collect();
+    // each of its functions is a test of a macro
+    assert!(listed.remove("every_float"));
+    assert_eq!(listed, found);
 }
 
 /// The names in a folder of `fuzz`, without endings.
