@@ -41,7 +41,6 @@ __all__ = [
     "Octahedral",
     "AreaTriangle",
     "LowDistortionTriangle",
-    "PolarDisk",
     # names of warps end of what is from the list
     # lights from the list of techniques: WRITE=1 cargo test -p etendue-tests bindings
     "Sphere",
@@ -891,10 +890,6 @@ class AreaTriangle(Warp):
 @final
 class LowDistortionTriangle(Warp):
     def __new__(cls) -> LowDistortionTriangle: ...
-
-@final
-class PolarDisk(Warp):
-    def __new__(cls) -> PolarDisk: ...
 
 # warps end of what is from the list
 

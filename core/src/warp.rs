@@ -21,7 +21,6 @@ mod hemisphere;
 mod linear;
 mod octahedral;
 mod patch;
-mod polar;
 mod triangle;
 mod visible_normals;
 
@@ -33,7 +32,6 @@ pub use hemisphere::CosineHemisphere;
 pub(crate) use linear::Linear;
 pub use octahedral::Octahedral;
 pub use patch::PatchSurface;
-pub use polar::PolarDisk;
 pub use triangle::{AreaTriangle, LowDistortionTriangle};
 pub use visible_normals::GgxVisibleNormals;
 
@@ -89,8 +87,6 @@ macro_rules! warps {
             Reflection [R] = EtendueReflection, reflection: 3;
             /// Points of a bilinear patch: pdf nearly 1/area.
             PatchSurface [R] = EtenduePatchSurface, patch_surface: 3;
-            /// Points of the unit disk, uniform in area (pdf 1/π), by radius and azimuth.
-            PolarDisk, polar_disk: 2;
         }
     };
 }

@@ -248,8 +248,6 @@ typedef enum {
   ETENDUE_WARP_REFLECTION,
   // Points of a bilinear patch: pdf nearly 1/area.
   ETENDUE_WARP_PATCH_SURFACE,
-  // Points of the unit disk, uniform in area (pdf 1/pi), by radius and azimuth.
-  ETENDUE_WARP_POLAR_DISK,
 } EtendueWarp;
 
 // A set of lights on the heap. Any number of threads may use it.

@@ -813,8 +813,6 @@ ETENDUE_FIXED_WARP(Octahedral, etendue_octahedral, 3)
 ETENDUE_FIXED_WARP(AreaTriangle, etendue_area_triangle, 2)
 // Barycentric coordinates of the second and third vertex of a triangle, by a map that keeps strata compact: pdf 2.
 ETENDUE_FIXED_WARP(LowDistortionTriangle, etendue_low_distortion_triangle, 2)
-// Points of the unit disk, uniform in area (pdf 1/pi), by radius and azimuth.
-ETENDUE_FIXED_WARP(PolarDisk, etendue_polar_disk, 2)
 // warps end of what is from the list
 
 // Directions within an angle of +z, by 1 - cos of that angle.

@@ -464,8 +464,7 @@ typedef struct {
     W(cosine_hemisphere, 3) \
     W(octahedral, 3) \
     W(area_triangle, 2) \
-    W(low_distortion_triangle, 2) \
-    W(polar_disk, 2)
+    W(low_distortion_triangle, 2)
 // warps end of what is from the list
 #define WARPS_WITH(W)                                 \
     W(cone, Cone, 3)                               \

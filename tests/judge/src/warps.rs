@@ -9,7 +9,6 @@ macro_rules! warps {
     ($callback:ident! { $($before:tt)* }) => {
         $callback! { $($before)*
             concentric_disk Plane 4000: $crate::fixtures::ConcentricDisk;
-            polar_disk Plane 4000: $crate::fixtures::PolarDisk;
             area_triangle Plane 4000: $crate::fixtures::AreaTriangle;
             low_distortion_triangle Plane 4000: $crate::fixtures::LowDistortionTriangle;
             bilinear Plane 1000 = $crate::generators::bilinears();
