@@ -354,12 +354,13 @@ fn taken(settings: &Settings, (trial, seconds): &(AutoTrial, f64)) -> String {
     };
     let (technique, choice) = trial.over;
     format!(
-        "auto {} {}: {:.2} times as efficient as {} in {} tiles of a trial, {} of the samples, {seconds:.3} s",
+        "auto {} {}: {:.2} times as efficient as {} in {} tiles of a trial{}, {} of the samples, {seconds:.3} s",
         if trial.is_rule { "kept its rule," } else { "took" },
         name(settings.technique, settings.choice),
         trial.times,
         name(technique, choice),
         trial.tiles,
+        if trial.is_rule && trial.times < 1.0 { ", too few to be sure" } else { "" },
         percent(trial.part)
     )
 }
