@@ -175,7 +175,8 @@ impl<R: Real> Half<R> {
         let over = rsqrt(squared);
         Self { solid_angle, half: Vec2::new(g0 * over, total * over), inv_sin: inv_g0 * squared * over, inv_g0 }
     }
-    /// (sin, cos)(α−H)/sinα from v2, where the sweep ends: P there has the coordinates (X, Y) = tan(δ₂/2) (cosψ, sinψ).
+    /// (sin, cos)(α−H)/sinα from v2, where the sweep ends: P there has the coordinates (X, Y) = tan(δ₂/2) (cosψ, sinψ), δ₂ the arc from v1 to v2
+    /// and ψ its angle at v1 with the side c.
     #[inline(always)]
     fn turned(&self, side: &Side<R>, opposite: &Opposite<R>) -> Vec2<R> {
         let by_plus = R::lit(1.0) / opposite.one_plus_d12.greater(R::lit(1e-30));
