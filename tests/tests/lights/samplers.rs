@@ -3,8 +3,8 @@
 use crate::lights::stretch;
 use etendue::reflection::Reflection;
 use etendue::{
-    Lanewise, LightSample, LightSampler, Line, Mask, Parallelogram, Polygon, Real, Rectangle, Sphere, Triangle, Vec2,
-    Vec3, f32x8,
+    Lanewise, LightSample, LightSampler, Line, Mask, Parallelogram, PointLight, Polygon, Real, Rectangle, Sphere,
+    Triangle, Vec2, Vec3, f32x8,
 };
 use etendue_judge::area_lights::{AreaLight, LightShape, Measure};
 use etendue_judge::fixture::Fixture;
@@ -360,5 +360,21 @@ fn what_is_no_number_leaves_no_samples_of_lobes() {
             lost += u32::from(nothing);
         }
         assert!(before.pdf > 0.0 && lost >= 8, "{name}: {lost} numbers count, {before:?}");
+    }
+}
+
+/// A sample that is mixed of two has each lane of the one that the mask names, whether it emits and whether it is of a delta light included.
+#[test]
+fn mixed_samples_have_the_lanes_of_both() {
+    let (at, u) = (Vec3::lit([0.0; 3]), Vec2::lit([0.3, 0.6]));
+    let ball = Sphere::new(Vec3::lit([0.0, 2.0, 0.0]), f32x8::splat(0.5)).by_solid_angle(at).sample(u);
+    let lamp = PointLight::new(Vec3::lit([1.0, 1.0, 0.0])).by_delta(at).sample(u);
+    let first = f32x8::from([1.0, 0.0, 0.0, 1.0, 1.0, 0.0, 1.0, 0.0]).gt(f32x8::splat(0.5));
+    for (mask, [yes, no]) in [(first, [ball, lamp]), (first, [lamp, ball]), (!first, [ball, lamp])] {
+        let mixed = LightSample::blend(mask, yes, no);
+        for i in 0..8 {
+            let of = if mask.lane(i) { yes } else { no };
+            assert_eq!(format!("{:?}", mixed.lane(i)), format!("{:?}", of.lane(i)), "lane {i}");
+        }
     }
 }
