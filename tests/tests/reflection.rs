@@ -31,7 +31,7 @@ impl ReflectingSurface {
     fn new(random: &mut Random) -> Self {
         Self::on(random.direction(), random)
     }
-    /// Of any roughness, seen from anywhere above it.
+    /// A surface of random roughness with this normal, seen from a random direction above it.
     pub(crate) fn on(normal: V3, random: &mut Random) -> Self {
         let (s, t) = basis(normal);
         let cos = random.magnitude(1e-3, 1.0);

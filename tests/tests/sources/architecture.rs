@@ -417,7 +417,7 @@ fn documents_are_short() {
     assert!((300..=1000).contains(&readme) && own.iter().all(|(_, words, most)| words <= most) && others <= 9200);
 }
 
-/// Tests that only run when they are asked for are told where those who might ask look.
+/// The README of the tests lists every ignored test, and no others.
 #[test]
 fn ignored_tests_are_listed() {
     let mut found = BTreeSet::new();

@@ -156,7 +156,8 @@ fn samplers_have_counts_with_a_variance() {
     assert_eq!(plan(Sampler::Sobol, 1, None).unwrap()[..2], [1, 2]);
 }
 
-/// A pass with eight times the weight of all before it takes their place, also in the tiles that are told; one of independent samples does not.
+/// A pass that outweighs all earlier ones eightfold replaces them, in the tiles reported to listeners as well. Passes of independent samples are
+/// averaged instead.
 #[test]
 fn small_passes_are_left_out_beside_large_ones() {
     let world = lit_floor();
