@@ -14,6 +14,7 @@ const LEAST_SQUARED: f64 = 1e-37;
 const FAR: f64 = 128.0;
 
 /// The vertices as the point sees them.
+#[derive(Clone, Copy)]
 struct Corners<R> {
     v: [Vec3<R>; 3],
     /// l
@@ -113,12 +114,12 @@ impl<R: Real> Opposite<R> {
             sin02_squared: planes.n02.length_squared() * (i0 * i2) * (i0 * i2),
         }
     }
-    /// The same where a side of more than 120° needs sums of nearly opposite unit vectors.
-    #[inline(always)]
-    fn widen(&mut self, corners: &Corners<R>, side: &Side<R>, planes: &Planes<R>) {
+    /// The same where a side of more than 120° needs sums of nearly opposite unit vectors. By value: what a closure borrows is copied where it
+    /// is not inlined.
+    #[inline]
+    fn widened(mut self, corners: Corners<R>, inverse: R, [n01, n02, n12]: [Vec3<R>; 3]) -> Self {
         let ([v0, v1, v2], [i0, i1, i2]) = (corners.v, corners.inverse);
-        let &Corners { d01, d02, d12, .. } = corners;
-        let &Planes { n01, n02, n12, .. } = planes;
+        let Corners { d01, d02, d12, .. } = corners;
         let (zero, one) = (R::lit(0.0), R::lit(1.0));
         let s01 = sum_of_units([v0, v1], [i0, i1], n01);
         let s02 = sum_of_units([v0, v2], [i0, i2], n02);
@@ -126,11 +127,12 @@ impl<R: Real> Opposite<R> {
         // T at the vertex to which the others are least opposite
         let (at0, at1, at2) = (s01.dot(s02), s01.dot(s12), s02.dot(s12));
         self.total = R::blend(d01.gt(d02.greater(d12)), at2, R::blend(d02.gt(d12), at1, at0));
-        self.x2 = -(n01.dot(n12) * side.inverse * i1 * i2);
+        self.x2 = -(n01.dot(n12) * inverse * i1 * i2);
         let behind = self.x2.mul_add(self.x2, self.y2 * self.y2) / (one + d12.abs());
         self.one_plus_d12 = R::blend(d12.lt(zero), behind, self.one_plus_d12);
         let behind = self.sin02_squared / (one + d02.abs());
         self.one_plus_d02 = R::blend(d02.lt(zero), behind, self.one_plus_d02);
+        self
     }
 }
 
@@ -247,9 +249,7 @@ impl<R: Real> SphericalTriangle<R> {
         let wide = corners.d01.lesser(corners.d02).lesser(corners.d12).lt(R::lit(-0.5));
         (planes.n12, opposite) = R::where_any(wide, (planes.n12, opposite), || {
             let n12 = exact();
-            let mut opposite = opposite;
-            opposite.widen(&corners, &side, &Planes { n12, ..planes });
-            (n12, opposite)
+            (n12, opposite.widened(corners, side.inverse, [planes.n01, planes.n02, n12]))
         });
         let [i0, i1, i2] = corners.inverse;
         let g0 = planes.volume.abs() * i0 * i1 * i2;
