@@ -185,6 +185,18 @@ fn small_passes_are_left_out_beside_large_ones() {
     }
 }
 
+/// A trial has the samples of the settings, or more if the time has room for more at a million a second; a number that a pass may have.
+#[test]
+fn the_trial_has_the_samples_that_fit() {
+    let settings = Settings { width: 256, height: 256, spp: 16, sampler: Sampler::Adaptive, ..Settings::DEFAULT };
+    let spp = |seconds| {
+        let goal = Goal { seconds, error: Some(0.01) };
+        Refinement { settings, sampler: None, goal }.of_trial().spp
+    };
+    // 60 seconds have room for 915 samples
+    assert_eq!([None, Some(0.5), Some(60.0)].map(spp), [16, 16, 896]);
+}
+
 /// What is decided in view of the error: samples per pixel, for an image of 64 whose error is this claim.
 #[test]
 fn the_next_pass_fits_the_error() {
