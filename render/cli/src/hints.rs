@@ -1,8 +1,9 @@
-//! What may help where an image is not what its user may have wanted.
+//! What may help where an image is not what its user may have wanted, and what `auto` took.
 
 use crate::output::percent;
+use etendue_render::drive::AutoTrial;
 use etendue_render::film::Film;
-use etendue_render::{Sampler, Settings, World};
+use etendue_render::{ChoiceBy, Sampler, Settings, Technique, World};
 
 /// What may help where an image is black, or its PNG nearly black or white; `brightness` is what the PNG is multiplied by, and `only_pictures`
 /// whether nothing but the textures of surfaces emits.
@@ -58,4 +59,23 @@ pub(crate) fn wasted(settings: &Settings, is_chosen: bool) -> Option<String> {
         let more = 4 * sets;
         format!("sets of one sample are independent, whatever the sampler: --spp {more} makes sets of 4, with less noise for their number")
     })
+}
+
+/// What `auto` has taken, over what, and by how much.
+pub(crate) fn taken(settings: &Settings, (trial, seconds): &(AutoTrial, f64)) -> String {
+    let name = |technique: Technique, choice: ChoiceBy| match choice {
+        ChoiceBy::Auto => technique.name().to_owned(),
+        _ => format!("{} with the choice {}", technique.name(), choice.name()),
+    };
+    let (technique, choice) = trial.over;
+    format!(
+        "auto {} {}: {:.2} times as efficient as {} in {} tiles of a trial{}, {} of the samples, {seconds:.3} s",
+        if trial.is_rule { "kept its rule," } else { "took" },
+        name(settings.technique, settings.choice),
+        trial.times,
+        name(technique, choice),
+        trial.tiles,
+        if trial.is_rule && trial.times < 1.0 { ", too few to be sure" } else { "" },
+        percent(trial.part)
+    )
 }

@@ -3,12 +3,12 @@
 mod beside;
 mod command_line;
 mod compare;
-mod draft;
 mod hints;
 mod image;
 mod interrupt;
 mod list;
 mod output;
+mod partial;
 mod processor;
 mod progress;
 mod render;

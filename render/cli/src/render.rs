@@ -2,23 +2,22 @@
 
 use crate::beside::{Beside as OtherImage, Cost, other_work};
 use crate::command_line::line;
-use crate::draft::Draft;
-use crate::hints::{hint, wasted, windows};
+use crate::hints::{hint, taken, wasted, windows};
 use crate::image::ImageOptions;
 use crate::interrupt::Interrupt;
 use crate::output::{Output, grouped, percent};
+use crate::partial::Partial;
 use crate::progress::bar;
 use clap::Args;
 use etendue_laboratory::cost::median;
 use etendue_laboratory::options::{named, out, pool, say, whole};
 use etendue_laboratory::processor_time::processor_seconds;
-use etendue_render::drive::AutoTrial;
 use etendue_render::drive::progressive::{self, Beside, Goal, Pass, Progress, Refinement};
 use etendue_render::film::claim::{Claim, why_unknown};
 use etendue_render::film::{Film, Pixel};
 use etendue_render::sampler::{default_sampler, reports_variance};
 use etendue_render::scene::area::Area;
-use etendue_render::{ChoiceBy, Identity, RayCount, Sampler, Sensor, Settings, Technique, World};
+use etendue_render::{Identity, RayCount, Sampler, Sensor, Settings, Technique, World};
 use serde_json::{Value, json};
 use std::error::Error;
 use std::io::{self, Write};
@@ -283,8 +282,8 @@ impl Session<'_> {
             Some(_) => bar.set_position(began.elapsed().as_millis() as u64),
             None => bar.inc(done),
         };
-        let draft = Draft::new(&self.identity.settings);
-        let tile = |tile: Area, pixels: &[Pixel]| draft.paste(tile, pixels);
+        let partial = Partial::new(&self.identity.settings);
+        let tile = |tile: Area, pixels: &[Pixel]| partial.paste(tile, pixels);
         let beside = Beside { stop: &AtomicBool::new(false), progress: &advance, tile: Some(&tile) };
         let aim = plan.goal.error.map_or_else(String::new, |target| format!(", {} wanted", percent(target)));
         let mut noted = began;
@@ -300,7 +299,7 @@ impl Session<'_> {
             if plan.goal.seconds.is_none() {
                 bar.set_position(0);
             }
-            draft.keep(self.interrupt, self.output, &self.identity);
+            partial.keep(self.interrupt, self.output, &self.identity);
         };
         let finish = |known: &Progress| {
             let (spp, sampler) = (u32::try_from(known.spp).unwrap_or(u32::MAX), known.passes[0].sampler);
@@ -345,25 +344,6 @@ impl Session<'_> {
 
 /// How often passes are noted where no bar shows them, at most.
 const NOTED: Duration = Duration::from_secs(60);
-
-/// What `auto` has taken, over what, and by how much.
-fn taken(settings: &Settings, (trial, seconds): &(AutoTrial, f64)) -> String {
-    let name = |technique: Technique, choice: ChoiceBy| match choice {
-        ChoiceBy::Auto => technique.name().to_owned(),
-        _ => format!("{} with the choice {}", technique.name(), choice.name()),
-    };
-    let (technique, choice) = trial.over;
-    format!(
-        "auto {} {}: {:.2} times as efficient as {} in {} tiles of a trial{}, {} of the samples, {seconds:.3} s",
-        if trial.is_rule { "kept its rule," } else { "took" },
-        name(settings.technique, settings.choice),
-        trial.times,
-        name(technique, choice),
-        trial.tiles,
-        if trial.is_rule && trial.times < 1.0 { ", too few to be sure" } else { "" },
-        percent(trial.part)
-    )
-}
 
 fn to_json(
     options: &Options,

@@ -9,9 +9,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// The image as it would be if the pass ended now, and whether this pass has added something to it.
 #[derive(Clone)]
-pub(crate) struct Draft(Arc<Mutex<(Film, bool)>>);
+pub(crate) struct Partial(Arc<Mutex<(Film, bool)>>);
 
-impl Draft {
+impl Partial {
     /// An image without samples.
     pub(crate) fn new(settings: &Settings) -> Self {
         let pixels = vec![Pixel::default(); area::count(settings.whole())];
@@ -29,12 +29,12 @@ impl Draft {
     }
     /// Lets an interruption write what the pass that begins has added by then, into files beside those of the passes before it.
     pub(crate) fn keep(&self, interrupt: &Interrupt, output: &Arc<Output>, identity: &Identity) {
-        let (draft, output, mut identity) = (self.clone(), Arc::clone(output), identity.clone());
-        draft.lock().1 = false;
+        let (partial, output, mut identity) = (self.clone(), Arc::clone(output), identity.clone());
+        partial.lock().1 = false;
         let mut status = interrupt.lock();
         let held = status.text.clone();
         status.last = Some(Box::new(move || {
-            let (film, is_new) = &*draft.lock();
+            let (film, is_new) = &*partial.lock();
             if !is_new {
                 return Ok(held);
             }
